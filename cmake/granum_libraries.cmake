@@ -1,0 +1,26 @@
+# Every external library is looked up here and enters the code behind one room only.
+find_package(MPI REQUIRED COMPONENTS C CXX)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+
+find_path(HYPRE_INCLUDE_DIR HYPRE.h PATH_SUFFIXES hypre REQUIRED)
+find_library(HYPRE_LIBRARY HYPRE REQUIRED)
+add_library(hypre_interface INTERFACE)
+target_include_directories(hypre_interface SYSTEM INTERFACE ${HYPRE_INCLUDE_DIR})
+target_link_libraries(hypre_interface INTERFACE ${HYPRE_LIBRARY} MPI::MPI_C)
+
+find_path(UDUNITS2_INCLUDE_DIR udunits2.h REQUIRED)
+find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)
+add_library(udunits2_interface INTERFACE)
+target_include_directories(udunits2_interface SYSTEM INTERFACE ${UDUNITS2_INCLUDE_DIR})
+target_link_libraries(udunits2_interface INTERFACE ${UDUNITS2_LIBRARY})
+
+add_library(hdf5_interface INTERFACE)
+target_include_directories(hdf5_interface SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+target_link_libraries(hdf5_interface INTERFACE ${HDF5_C_LIBRARIES})

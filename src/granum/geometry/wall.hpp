@@ -1,0 +1,44 @@
+// Walls that granules touch: planes, cylinders and cones about the z axis.
+#pragma once
+
+#include "granum/math/vec3.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace granum::geometry
+{
+using math::Vec3;
+
+//! Infinite plane; granules live on the side the normal points to.
+struct Plane
+{
+    Vec3 point, normal;  //!< m, unit
+};
+
+//! Inside of a body of revolution between two heights: a cylinder (equal radii) or a cone.
+struct ConeWall
+{
+    double z0, r0, z1, r1;  //!< m, z0 < z1
+};
+
+using Surface = std::variant<Plane, ConeWall>;
+
+struct Wall
+{
+    Surface surface;
+    std::uint32_t material = 0;
+};
+
+struct Touch
+{
+    double distance;  //!< from the centre to the surface, m, positive inside
+    Vec3 normal;      //!< unit, from the surface to the centre
+};
+
+//! Nearest point of the wall to a sphere centre, if it lies within `reach`. Edges where sections meet are convex seen
+//! from inside or nearly flat: the nearest point of a section is clamped to its ends.
+std::optional<Touch> touch(Surface const& surface, Vec3 const& centre, double reach);
+}

@@ -1,0 +1,44 @@
+// The ranks of a run and what they say to each other.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace granum::par
+{
+//! Thin view of an MPI communicator. MPI is initialised by the program, never here.
+class Communicator
+{
+  public:
+    explicit Communicator(MPI_Comm handle = MPI_COMM_WORLD);
+
+    int rank() const { return rank_; }
+    int size() const { return size_; }
+    bool root() const { return rank_ == 0; }
+    MPI_Comm handle() const { return handle_; }
+
+    double sum(double value) const;
+    long sum(long value) const;
+    double max(double value) const;
+    double min(double value) const;
+    long max(long value) const;
+    void sum(std::span<double> values) const;  //!< element by element, result on every rank
+    void barrier() const;
+
+    //! Sends `out` to rank `to` while receiving from rank `from`; either may be -1 for nobody. Any length.
+    std::vector<std::byte> exchange(std::span<std::byte const> out, int to, int from) const;
+
+    //! The bytes of every rank one after the other, on rank 0 (empty elsewhere).
+    std::vector<std::byte> gather(std::span<std::byte const> mine) const;
+
+    //! The bytes of rank 0 on every rank.
+    void broadcast(std::vector<std::byte>& bytes) const;
+
+  private:
+    MPI_Comm handle_;
+    int rank_ = 0, size_ = 1;
+};
+}
