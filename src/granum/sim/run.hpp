@@ -1,0 +1,24 @@
+// The one entry to a simulation: what `granum run` calls on every rank.
+#pragma once
+
+#include "granum/base/error.hpp"
+#include "granum/par/communicator.hpp"
+#include "granum/sim/case.hpp"
+
+#include <optional>
+#include <string>
+
+namespace granum::sim
+{
+struct RunOptions
+{
+    std::string folder;           //!< of the results; does not exist yet
+    std::optional<double> until;  //!< s of simulated time, instead of the case's duration
+    bool json = false;            //!< prints summary.json to stdout at the end
+    bool quiet = false;           //!< no live line, no closing words
+};
+
+//! Runs the case on the ranks of `comm` and fills the run folder. Collective. Returns how it ended; throws
+//! base::NumericsError or base::IoError on rank-independent failures.
+base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Communicator const& comm);
+}
