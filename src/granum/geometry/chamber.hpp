@@ -20,23 +20,29 @@ struct ProfilePoint
 //! Inside of an apparatus. The plate is at z = 0, the outlet at z = `height`.
 struct Chamber
 {
-    enum class Shape { box, revolution } shape = Shape::box;
-    Vec3 size{1, 1, 1};                //!< of a box, from (0, 0, 0), m
-    std::vector<ProfilePoint> profile; //!< of a body of revolution about the z axis, heights strictly rising from 0
+    enum class Shape
+    {
+        box,
+        revolution
+    } shape = Shape::box;
+    Vec3 size{1, 1, 1};                 //!< of a box, from (0, 0, 0), m
+    std::vector<ProfilePoint> profile;  //!< of a body of revolution about the z axis, heights strictly rising from 0
 
     double height() const;
-    double radius(double z) const;           //!< of a body of revolution at z; constant beyond its ends
-    Vec3 lower() const;                      //!< corners of the bounding box
+    double radius(double z) const;  //!< of a body of revolution at z; constant beyond its ends
+    Vec3 lower() const;             //!< corners of the bounding box
     Vec3 upper() const;
-    double area(double z) const;             //!< open cross-section, m2
+    double area(double z) const;                //!< open cross-section, m2
     double volume(double z0, double z1) const;  //!< between two heights, m3
     double volume() const { return volume(0, height()); }
     bool inside(Vec3 const& x, double margin = 0) const;  //!< farther than `margin` from every wall, plate and outlet
 
-    //! Open volume of the axis-aligned box [low, high], m3; exact in the horizontal, Gauss quadrature in z (cones and
-    //! cylinders: to round-off).
+    //! Open volume of the axis-aligned box [low, high], m3; exact in the horizontal, five Gauss points in z between
+    //! profile points. Boxes that tile a layer share these points, so that their sum is the layer's volume to
+    //! round-off.
     double open_volume(Vec3 const& low, Vec3 const& high) const;
-    //! Open area of the face of [low, high] with normal `direction`, at low[direction], m2.
+    //! Open area of the face of [low, high] with normal `direction`, at low[direction], m2: exact for horizontal
+    //! faces, Gauss points in z for vertical ones.
     double open_area(int direction, Vec3 const& low, Vec3 const& high) const;
 };
 

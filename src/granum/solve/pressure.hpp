@@ -1,0 +1,63 @@
+// The pressure equation: a symmetric seven-point system on the cells of all ranks, by conjugate gradients.
+//
+// Two preconditioners stand behind one interface: hypre's PFMG multigrid, and the diagonal as plain reference. The
+// set-up of PFMG costs several of its cycles, and the matrix changes little from step to step: so a set-up is kept
+// until the iterations grow. The residual is always that of the present matrix.
+#pragma once
+
+#include "granum/grid/grid.hpp"
+#include "granum/par/communicator.hpp"
+
+#include <memory>
+
+namespace granum::solve
+{
+using grid::FaceField;
+using grid::Field;
+
+//! For each owned cell c: sum over its faces of link (x_c - x_neighbour) + extra_c x_c = right_c. Links and extras are
+//! not negative; a link of zero closes a face; a cell with neither is left out (x = 0). If no cell of the domain has an
+//! extra, x is determined up to a constant: the mean of the right side over its cells is dropped, and x has mean zero.
+struct System
+{
+    FaceField
+        link;  //!< per lower face, filled on owned faces and on the faces shared with ghosts at n (see grid::refresh)
+    Field extra;
+    Field right;
+    explicit System(grid::Grid const& grid)
+        : link(grid.make_face_field()), extra(grid.make_field()), right(grid.make_field())
+    {
+    }
+};
+
+enum class Method
+{
+    multigrid,
+    diagonal
+};
+
+struct Outcome
+{
+    int iterations = 0;
+    double residual = 0;  //!< two-norm over all ranks
+    bool converged = false;
+};
+
+class Pressure
+{
+  public:
+    //! PFMG coarsens periodic directions by two only: other periodic sizes fall back to the diagonal.
+    Pressure(grid::Grid const& grid, par::Communicator const& comm, Method method);
+    ~Pressure();
+
+    //! Solves until the residual's two-norm is below `tolerance` times that of the right side, or below `floor`. `x` is
+    //! first guess and result, its ghosts are refreshed. Collective.
+    Outcome solve(System const& system, Field& x, double tolerance, double floor = 0);
+
+    Method method() const;
+
+  private:
+    struct Inside;
+    std::unique_ptr<Inside> inside_;
+};
+}
