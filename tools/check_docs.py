@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Holds the manual against the tree: links between pages lead somewhere, doc/reference/case.md names exactly the keys that the
+case reader asks for, and the theory pages name every law."""
+import pathlib
+import re
+import sys
+
+SECTIONS = "apparatus|gas|granules|contact|spray|drying|product|start|time|output"
+
+
+def broken_links(root):
+    for page in sorted([*root.glob("*.md"), *root.glob("doc/**/*.md"), *root.glob("examples/**/*.md")]):
+        for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+            path = target.split("#")[0]
+            if path and not re.match(r"[a-z]+:", target) and not (page.parent / path).exists():
+                yield f"{page.relative_to(root)}: link to {target} leads nowhere"
+
+
+def keys_read(root):
+    """Keys that the case reader names: "section.key" literals, and the keys of [[granule]] and [[nozzle]]."""
+    keys = set()
+    for file in root.glob("src/granum/sim/case_*.cpp"):
+        text = file.read_text()
+        keys |= set(re.findall(rf'"((?:{SECTIONS})\.[a-z_.]+)"', text))
+        if file.name == "case_spray.cpp":
+            keys |= {f"spray.{name}" for name in re.findall(r'\bproperty\("([a-z_]+)"', text)}
+        table = re.findall(r'fmt::format\("(granule|nozzle)\[\{\}\]\."', text)
+        if table:
+            keys |= {f"{table[0]}.{name}" for name in re.findall(r'\bkey \+ "([a-z_]+)"', text)}
+    return keys
+
+
+def keys_documented(root):
+    """Keys in the first column of the tables of doc/reference/case.md, under their section's heading."""
+    section, keys = None, set()
+    for line in (root / "doc/reference/case.md").read_text().splitlines():
+        heading = re.match(r"## `\[+([a-z]+)\]+`", line)
+        if line.startswith("## "):
+            section = heading[1] if heading else None
+        row = re.match(r"\| (`[^|]+) \|", line)
+        if section and row:
+            keys |= {f"{section}.{key}" for key in re.findall(r"`([a-z_.]+)`", row[1])}
+    return keys
+
+
+def laws_without_a_page(root):
+    theory = "\n".join(page.read_text() for page in root.glob("doc/theory/*.md"))
+    for file in sorted([*root.glob("src/granum/law/**/*.hpp"), *root.glob("src/granum/product/*.hpp")]):
+        for name in re.findall(r'Card card\s*\{\s*\.name = "([^"]+)"', file.read_text()):
+            if f"`{name}`" not in theory and f"**{name}**" not in theory:
+                yield f"{file.relative_to(root)}: law {name} is on no page of doc/theory"
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    errors = list(broken_links(root)) + list(laws_without_a_page(root))
+    read, documented = keys_read(root), keys_documented(root)
+    errors += [f"doc/reference/case.md: {key} is read from a case and not documented" for key in sorted(read - documented)]
+    errors += [f"doc/reference/case.md: no case reader asks for {key}" for key in sorted(documented - read)]
+    for error in errors:
+        print(error, file=sys.stderr)
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
