@@ -34,11 +34,13 @@ struct Wall
 
 struct Touch
 {
-    double distance;  //!< from the centre to the surface, m, positive inside
-    Vec3 normal;      //!< unit, from the surface to the centre
+    double distance;    //!< from the centre to the surface, m, positive inside
+    Vec3 normal;        //!< unit, from the surface to the centre
+    bool edge = false;  //!< the nearest point is an end of a section: a neighbouring section may be nearer
 };
 
-//! Nearest point of the wall to a sphere centre, if it lies within `reach`. Edges where sections meet are convex seen
-//! from inside or nearly flat: the nearest point of a section is clamped to its ends.
+//! Nearest point of the wall to a sphere centre, if it lies within `reach`. The nearest point of a section is clamped
+//! to its ends and then marked as an edge, so that whoever asks can drop it where the next section is touched as well.
+//! A centre behind the wall has a negative distance and keeps the normal that points inside.
 std::optional<Touch> touch(Surface const& surface, Vec3 const& centre, double reach);
 }

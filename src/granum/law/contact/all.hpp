@@ -1,0 +1,13 @@
+// The laws of contact, one list per slot: a new law adds its name here.
+#pragma once
+
+#include "granum/law/contact/normal_hertz_tsuji.hpp"
+#include "granum/law/contact/rolling.hpp"
+#include "granum/law/contact/tangential_mindlin.hpp"
+
+namespace granum::law::contact
+{
+using NormalLaws = base::TypeList<HertzTsuji>;
+using TangentialLaws = base::TypeList<Mindlin>;
+using RollingLaws = base::TypeList<Epsd, NoRolling>;
+}
