@@ -41,6 +41,8 @@ TEST(MoistAir, agrees_with_the_saturation_tables)
             ours = enthalpy_per_dry(celsius, saturation_humidity(t, p));
         else if (quantity == "dry_air_enthalpy_J_kg")
             ours = enthalpy(t, 0);
+        else if (quantity == "dry_air_volume_m3_kg")
+            ours = 1 / density(p, t, 0);
         else
             FAIL() << "unknown quantity " << quantity;
         EXPECT_NEAR(ours, expected, margin(table.text(row, "tolerance"), expected))
