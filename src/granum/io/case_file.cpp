@@ -134,6 +134,7 @@ struct CaseFile::Inside
     std::vector<base::Mistake> mistakes;
     std::vector<std::pair<std::string, base::Mistake>> missing;  //!< by key, reported unless a typo explains them
     std::vector<Provenance> provenance;
+    std::map<std::string, std::set<std::string>> doubtful;  //!< values of low confidence in use, by material
     std::vector<std::string> warnings;
     std::map<std::string, Material> materials;  //!< by section
 
@@ -181,10 +182,8 @@ struct CaseFile::Inside
         auto const mark = (*property)["mark"].value_or(std::string());
         auto const source = (*property)["source"].value_or(std::string("no source given"));
         origin = fmt::format("material {} ({}{}{})", found->second.name, mark, mark.empty() ? "" : "; ", source);
-        if (mark == "recalled" || mark == "low confidence")
-            warnings.push_back(fmt::format(
-                "{}: {} of {} is a value of {} confidence ({}); measure it or set it in the case", key,
-                as_written(*value), found->second.name, mark == "recalled" ? "recalled, low" : "low", source));
+        if (mark.find("recalled") != std::string::npos || mark.find("low") != std::string::npos)
+            doubtful[found->second.name].insert(fmt::format("{} = {}", entry, as_written(*value)));
         return value;
     }
 
@@ -203,9 +202,9 @@ struct CaseFile::Inside
     double number(toml::node const& node, std::string const& key, Dimension dimension)
     {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
-        if (auto const* message_text = node.as_string()) {
+        if (auto const* quoted = node.as_string()) {
             try {
-                return read_quantity(text->get(), dimension);
+                return read_quantity(quoted->get(), dimension);
             } catch (QuantityError const& wrong_text) {
                 std::vector<std::string> hints;
                 if (!wrong_text.hint.empty()) hints.push_back(wrong_text.hint);
@@ -486,9 +485,17 @@ std::vector<std::string> CaseFile::list(std::string const& key, std::string cons
     return out;
 }
 
-void CaseFile::use_material(std::string const& section, std::string const& name, std::string const& file)
+void CaseFile::use_material(std::string const& section, std::string const& name, std::string const& file,
+                            std::vector<std::string> const& left_out)
 {
-    inside_->materials[section] = {name, file, parse(read_text(file), file)};
+    auto values = parse(read_text(file), file);
+    for (auto const& key : left_out) values.erase(key);
+    inside_->materials[section] = {name, file, std::move(values)};
+}
+
+void CaseFile::know(std::string const& key)
+{
+    inside_->known.insert(general(key));
 }
 
 void CaseFile::mistake(std::string const& key, std::string const& what, std::vector<std::string> hints)
@@ -554,6 +561,12 @@ void CaseFile::Inside::unknown_keys(toml::table const& table, std::string const&
 void CaseFile::finish()
 {
     inside_->unknown_keys(inside_->root, "");
+    for (auto const& [material, values] : inside_->doubtful) {
+        std::string list;
+        for (auto const& value : values) list += (list.empty() ? "" : ", ") + value;
+        inside_->warnings.push_back(fmt::format(
+            "{}: {}: recalled values of low confidence; measure them, or set them in the case", material, list));
+    }
     auto all = std::move(inside_->mistakes);
     for (auto& [key, mistake] : inside_->missing) all.push_back(std::move(mistake));
     if (all.empty()) return;

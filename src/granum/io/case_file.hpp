@@ -51,6 +51,8 @@ class CaseFile
     bool has(std::string const& key) const;
     //! Entries of an array, 0 where it is missing. Their keys are "name[0].entry".
     int count(std::string const& key);
+    //! Makes a key known without reading it.
+    void know(std::string const& key);
     //! Makes a section known.
     void section(std::string const& name);
 
@@ -74,8 +76,10 @@ class CaseFile
                                   std::vector<std::string> const& allowed);
     //! @}
 
-    //! Values of `file` stand in for missing keys of the section. Throws base::CaseError where the file is wrong.
-    void use_material(std::string const& section, std::string const& name, std::string const& file);
+    //! Values of `file` but those of `left_out` stand in for missing keys of the section. Throws base::CaseError where
+    //! the file is wrong.
+    void use_material(std::string const& section, std::string const& name, std::string const& file,
+                      std::vector<std::string> const& left_out = {});
 
     //! A mistake at the line of `key` (of its section where the key is not written).
     void mistake(std::string const& key, std::string const& what, std::vector<std::string> hints = {});

@@ -116,6 +116,7 @@ struct SprayCase
     double droplet_spread = 1.6;  //!< geometric standard deviation
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
+    std::string capture = "loeffler";  //!< law of capture by granules
     bool allow_overwetting = false;
 };
 

@@ -1,5 +1,6 @@
 #include "granum/sim/stop.hpp"
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 
@@ -23,8 +24,11 @@ void install_stop_signals()
     action.sa_handler = ask;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    for (int const signal : {SIGUSR1, SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    for (int const signal : std::array{SIGUSR1, SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
-bool stop_requested() { return asked != 0; }
+bool stop_requested()
+{
+    return asked != 0;
+}
 }

@@ -1,0 +1,137 @@
+// Reads [spray] with its nozzles, and the process: [drying], [product], [start], [time], [output].
+#include "granum/sim/case_sections.hpp"
+#include "granum/sim/law_families.hpp"
+
+#include <cmath>
+
+namespace granum::sim
+{
+using io::Dimension;
+
+namespace
+{
+NozzleCase read_nozzle(io::CaseFile& file, std::string const& key, Purpose purpose)
+{
+    NozzleCase nozzle;
+    bool const placed = purpose == Purpose::run;
+    nozzle.position =
+        file.vector(key + "position", Dimension::length, placed ? std::nullopt : std::optional(math::Vec3{}),
+                    "of the mouth, above the middle of the plate");
+    nozzle.direction = file.vector(key + "direction", Dimension::one, nozzle.direction, "of the spray; any length");
+    double const length = norm(nozzle.direction);
+    if (length > 0)
+        nozzle.direction = nozzle.direction / length;
+    else
+        file.mistake(key + "direction", "has no length");
+    nozzle.half_angle = file.quantity(key + "half_angle", Dimension::angle, nozzle.half_angle,
+                                      "of the cone of droplets", {.low = 0, .high = math::pi / 2});
+    nozzle.air_mass_flow =
+        file.quantity(key + "air", Dimension::mass_flow, 0.0, "atomising air, dry", io::not_negative);
+    nozzle.air_temperature = file.quantity(key + "air_temperature", Dimension::temperature, nozzle.air_temperature,
+                                           "of the atomising air", {.low = 233.15, .high = 473.15});
+    nozzle.air_humidity =
+        file.quantity(key + "air_humidity", Dimension::one, 0.0, "kg water per kg dry air", io::not_negative);
+    nozzle.air_velocity = file.quantity(key + "air_velocity", Dimension::velocity, nozzle.air_velocity,
+                                        "of the atomising air at the mouth", io::not_negative);
+    nozzle.droplet_velocity = file.quantity(key + "droplet_velocity", Dimension::velocity, nozzle.droplet_velocity,
+                                            "of the droplets at the mouth", io::not_negative);
+    return nozzle;
+}
+}
+
+void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
+{
+    SprayCase& spray = data.spray;
+    spray.present = file.has("spray");
+    int const nozzles = file.count("nozzle");
+    if (!spray.present) {
+        if (nozzles > 0) file.mistake("nozzle", "needs a [spray]", {"add [spray] with its rate and liquid"});
+        return;
+    }
+    if (!data.gas.present) file.mistake("spray", "needs a [gas] to dry it");
+    spray.liquid = take_material(file, "spray.liquid", {"spray"});
+    spray.rate = file.quantity("spray.rate", Dimension::mass_flow, std::nullopt, "liquid of all nozzles together",
+                               io::not_negative);
+    spray.solids_fraction = file.quantity("spray.solids_fraction", Dimension::one, std::nullopt,
+                                          "kg solids per kg liquid", {.low = 0, .high = 0.99});
+    spray.temperature = file.quantity("spray.temperature", Dimension::temperature, spray.temperature, "of the liquid",
+                                      {.low = 273.15, .high = 373.15});
+    bool const whole = purpose == Purpose::run;
+    auto const property = [&](char const* key, Dimension dimension, double value, char const* doc, io::Range range) {
+        return file.quantity(std::string("spray.") + key, dimension, whole ? std::nullopt : std::optional(value), doc,
+                             range);
+    };
+    spray.density = property("density", Dimension::density, spray.density, "of the liquid", io::positive);
+    spray.viscosity = property("viscosity", Dimension::viscosity, spray.viscosity, "of the liquid", io::positive);
+    spray.surface_tension =
+        property("surface_tension", Dimension::surface_tension, spray.surface_tension, "of the liquid", io::positive);
+    spray.solids_density = property("solids_density", Dimension::density, spray.solids_density,
+                                    "of the dry solids without pores", io::positive);
+    spray.solubility = property("solubility", Dimension::one, spray.solubility,
+                                "kg solids per kg water; 0: a suspension", io::not_negative);
+    spray.molar_mass = property("molar_mass", Dimension::molar_mass, spray.molar_mass, "of the solute", io::positive);
+    spray.dissociation =
+        property("dissociation", Dimension::one, spray.dissociation, "ions per molecule (van 't Hoff)", io::positive);
+    spray.contact_angle = property("contact_angle", Dimension::angle, spray.contact_angle, "of a droplet on a granule",
+                                   {.low = 0, .high = math::pi, .low_allowed = false});
+    spray.droplet_median = file.quantity("spray.droplet_median", Dimension::length, spray.droplet_median,
+                                         "diameter, of the volume distribution", io::positive);
+    spray.droplet_spread = file.quantity("spray.droplet_spread", Dimension::one, spray.droplet_spread,
+                                         "geometric standard deviation", {.low = 1, .high = 5});
+    spray.parcels_per_second = file.quantity("spray.parcels_per_second", Dimension::count_rate,
+                                             spray.parcels_per_second, "droplet parcels made per second", io::positive);
+    spray.capture = file.name("spray.capture", spray.capture, "law", laws_for("spray.capture"), "a capture law");
+    spray.allow_overwetting =
+        file.boolean("spray.allow_overwetting", false, "run even if the air cannot take up the water");
+    for (int i = 0; i < nozzles; ++i)
+        spray.nozzles.push_back(read_nozzle(file, fmt::format("nozzle[{}].", i), purpose));
+    if (whole && nozzles == 0) file.mistake("spray", "has no nozzle", {"add a [[nozzle]] with its position"});
+}
+
+void read_process(io::CaseFile& file, Case& data, Purpose purpose)
+{
+    data.drying.deposit =
+        file.name("drying.deposit", data.drying.deposit, "law", laws_for("drying.deposit"), "a law of deposit drying");
+    data.drying.critical_moisture =
+        file.quantity("drying.critical_moisture", Dimension::one, 0.0,
+                      "kg water per kg solids below which drying slows; 0: none", io::not_negative);
+    data.drying.end_moisture = file.quantity("drying.end_moisture", Dimension::one, data.drying.end_moisture,
+                                             "share of the feed's moisture at which a deposit counts as dry",
+                                             {.low = 0, .high = 1, .low_allowed = false});
+
+    ProductCase& product = data.product;
+    product.porosity_model = file.name("product.porosity_model", product.porosity_model, "law",
+                                       laws_for("product.porosity_model"), "a porosity model");
+    product.porosity_at_zero = file.quantity("product.porosity_at_zero", Dimension::one, product.porosity_at_zero,
+                                             "layer porosity at drying potential 0", io::zero_to_one);
+    product.porosity_slope = file.quantity("product.porosity_slope", Dimension::one, product.porosity_slope,
+                                           "change of porosity per drying potential", {.low = -5, .high = 5});
+    product.porosity_band = file.quantity("product.porosity_band", Dimension::one, product.porosity_band,
+                                          "standard deviation about the line", io::zero_to_one);
+    product.illustrative =
+        file.boolean("product.illustrative", true, "coefficients not fitted to measurements of this product");
+
+    StartCase& start = data.start;
+    start.quasi_steady =
+        file.boolean("start.quasi_steady", data.spray.present, "bed, gas and surface moisture from the balance");
+    start.temperature_offset = file.quantity("start.temperature_offset", Dimension::temperature_difference, 0.0,
+                                             "added to the bed temperature of the balance", {.low = -100, .high = 100});
+    io::Range const warm{.low = 233.15, .high = 473.15};
+    start.bed_temperature =
+        file.optional_quantity("start.bed_temperature", Dimension::temperature, "instead of the balance's", warm);
+    start.gas_temperature =
+        file.optional_quantity("start.gas_temperature", Dimension::temperature, "instead of the balance's", warm);
+
+    TimeCase& time = data.time;
+    bool const whole = purpose == Purpose::run;
+    time.duration = file.quantity("time.duration", Dimension::time, whole ? std::nullopt : std::optional(time.duration),
+                                  "to be simulated", io::positive);
+    time.granule_step =
+        file.optional_quantity("time.granule_step", Dimension::time, "otherwise from the bounds", io::positive);
+    time.gas_step = file.optional_quantity("time.gas_step", Dimension::time, "otherwise from the bounds", io::positive);
+    time.output_interval = file.quantity("output.interval", Dimension::time, time.output_interval,
+                                         "of pictures and ParaView files", io::positive);
+    time.series_interval = file.quantity("output.series_interval", Dimension::time, time.series_interval,
+                                         "of timeseries.csv", io::positive);
+}
+}

@@ -1,0 +1,237 @@
+#include "granum/sim/forecast.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/law/drag/all.hpp"
+#include "granum/law/drag/fluidisation.hpp"
+#include "granum/material/moist_air.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+namespace granum::sim
+{
+namespace
+{
+constexpr double settled_solids = 0.6;
+constexpr double packed_voidage = 0.42;  //!< where minimum fluidisation is evaluated
+
+double parcel_radius(Case const& data)
+{
+    double radius = data.granules.diameter / 2;
+    for (auto const& one : data.granules.given)
+        if (one.diameter > 0) radius = std::min(radius, one.diameter / 2);
+    return radius * (data.granules.given.empty() ? data.granules.parcel_ratio : 1);
+}
+
+double gas_density(Case const& data)
+{
+    auto const& inlet = data.gas.inlet;
+    return data.gas.density.value_or(
+        material::density(data.gas.pressure, inlet.temperature, material::fraction(inlet.humidity)));
+}
+
+//! Effective moduli of two equal granules, Pa.
+struct Moduli
+{
+    double normal, shear;
+};
+Moduli moduli(ContactMaterial const& granule)
+{
+    double const nu = granule.poisson_ratio, shear = granule.youngs_modulus / (2 * (1 + nu));
+    return {granule.youngs_modulus / (2 * (1 - nu * nu)), shear / (2 * (2 - nu))};
+}
+
+//! Largest overlap, m, of two equal spheres that meet at `speed` without loss (Hertz).
+double largest_overlap(Case const& data, double radius, double speed)
+{
+    double const mass = data.granules.density * 4 / 3 * math::pi * radius * radius * radius;
+    return std::pow(
+        15 * (mass / 2) * speed * speed / (16 * moduli(data.contact.granule).normal * std::sqrt(radius / 2)), 0.4);
+}
+
+//! Contact-like evaluations per second of one core, timed for 20 ms: a distance, a root and a force per pair.
+double kernel_rate()
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr int count = 2048;
+    std::array<double, count> x{}, f{};
+    for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = 1 + 0.37 * i / count;
+    auto const start = Clock::now();
+    double seconds = 0;
+    long done = 0;
+    while (seconds < 0.02) {
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+            double const d = x[i + 1] - x[i] + 1.1, r = std::sqrt(d * d + 0.3);
+            f[i] += (1.5 - r) * std::sqrt(r) / r;
+        }
+        x[0] += 1e-12 * f[count / 2];
+        done += count;
+        seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    return static_cast<double>(done) / seconds;
+}
+
+// The estimate of wall time counts work in evaluations of the kernel above. How many a granule and step (contacts with
+// some five partners, search, motion) and a cell and gas step (momentum, pressure iterations, exchange) take is an
+// assumption of the estimate, which is therefore good to a factor of about three.
+constexpr double evaluations_per_granule_step = 40;
+constexpr double evaluations_per_cell_step = 2500;
+constexpr double bytes_per_parcel = 2500;  //!< columns, neighbour list, contact history, output buffers (assumed)
+constexpr double bytes_per_cell = 800;     //!< fields and the rows of the pressure matrix (assumed)
+constexpr double bytes_per_rank = 60e6;    //!< program, libraries, message passing (assumed)
+
+void add_warnings(Case const& data, Forecast& out)
+{
+    auto const warn = [&out](std::string text) { out.warnings.push_back(std::move(text)); };
+    bool const bed = data.granules.mass > 0 && !data.granules.frozen;
+    if (bed && out.plate_velocity > 0 && out.plate_velocity < out.minimum_fluidisation)
+        warn(fmt::format("the bed is not fluidised: {:.3g} m/s at the plate, {:.3g} m/s needed", out.plate_velocity,
+                         out.minimum_fluidisation));
+    if (bed && out.plate_velocity > out.terminal_velocity)
+        warn(fmt::format("granules are carried out: {:.3g} m/s at the plate, terminal velocity {:.3g} m/s",
+                         out.plate_velocity, out.terminal_velocity));
+    if (data.gas.drag == "beetstra" && out.reynolds > 1000)
+        warn(fmt::format("gas.drag: beetstra is fitted up to Reynolds number 1000, the granules reach {:.4g}",
+                         out.reynolds));
+    if (out.cells > 1 && out.cell_over_parcel > 0 && out.cell_over_parcel < 1.5)
+        warn(fmt::format(
+            "cells are only {:.2f} parcels wide: the voidage will be noisy below 1.5; use fewer cells or gas.smoothing",
+            out.cell_over_parcel));
+    if (out.overlap > 0.10)
+        warn(fmt::format(
+            "contacts at {:.2g} m/s overlap by {:.0f} % of a radius (10 % is the limit): raise contact.youngs_modulus",
+            out.contact_speed, 100 * out.overlap));
+    if (data.granules.parcel_ratio > 10)
+        warn(fmt::format("a parcel stands for {:.0f} granules: mixing and contact statistics are coarse",
+                         std::pow(data.granules.parcel_ratio, 3)));
+    if (!out.bounds.empty() &&
+        out.granule_step >
+            1.0001 * std::min_element(out.bounds.begin(), out.bounds.end(), [](auto const& a, auto const& b) {
+                         return a.seconds < b.seconds;
+                     })->seconds)
+        warn("time.granule_step is above the recommended bound");
+    if (data.spray.present && !data.spray.nozzles.empty() && data.product.illustrative)
+        warn("product: the porosity coefficients are illustrative; fit them to measurements of your product");
+    if (out.balance && out.balance->overwetted())
+        warn("the air cannot take up the sprayed water: the bed will over-wet");
+    for (auto const& nozzle : data.spray.nozzles)
+        if (out.bed_height > 0 && nozzle.position.z < out.bed_height)
+            warn(fmt::format("a nozzle at {:.3g} m lies below the top of the settled bed ({:.3g} m)", nozzle.position.z,
+                             out.bed_height));
+}
+}
+
+std::optional<double> settled_height(Case const& data)
+{
+    double const needed = data.granules.mass / data.granules.density / settled_solids;
+    double low = 0, high = data.chamber.height();
+    if (!(needed <= data.chamber.volume(0, high))) return std::nullopt;
+    for (int i = 0; i < 60; ++i) {
+        double const middle = 0.5 * (low + high);
+        (data.chamber.volume(0, middle) < needed ? low : high) = middle;
+    }
+    return high;
+}
+
+double plate_velocity(Case const& data)
+{
+    if (!data.gas.present || data.gas.closed) return 0;
+    if (data.gas.inlet.velocity > 0) return data.gas.inlet.velocity;
+    double const moist = data.gas.inlet.dry_mass_flow * (1 + data.gas.inlet.humidity);
+    return moist / (gas_density(data) * data.chamber.area(0));
+}
+
+double expected_contact_speed(Case const& data)
+{
+    double speed = std::max(0.5, plate_velocity(data));
+    for (auto const& one : data.granules.given) speed = std::max(speed, norm(one.velocity));
+    return speed;
+}
+
+std::vector<GranuleStepBound> granule_step_bounds(Case const& data, double speed)
+{
+    double const radius = parcel_radius(data), density = data.granules.density;
+    auto const& granule = data.contact.granule;
+    double const shear = granule.youngs_modulus / (2 * (1 + granule.poisson_ratio));
+    double const rayleigh = math::pi * radius * std::sqrt(density / shear) / (0.1631 * granule.poisson_ratio + 0.8766);
+    double const overlap = largest_overlap(data, radius, speed);
+    double const contact = 2.943275 * overlap / speed;
+    std::vector<GranuleStepBound> out{
+        {0.2 * rayleigh,
+         fmt::format("0.2 of the Rayleigh time {:.3g} s of a parcel of {:.3g} mm", rayleigh, 2e3 * radius)},
+        {contact / 20, fmt::format("a twentieth of a contact at {:.2g} m/s, {:.3g} s", speed, contact)}};
+    if (data.contact.rolling != "none" && data.contact.granule_granule.rolling_friction > 0) {
+        // Period of I against k_r = k_t R*^2 with k_t = 8 G* sqrt(R* overlap), R* = R/2.
+        double const mass = density * 4 / 3 * math::pi * radius * radius * radius;
+        double const stiffness = 8 * moduli(granule).shear * std::sqrt(radius / 2 * overlap) * radius * radius / 4;
+        double const period = std::sqrt(0.4 * mass * radius * radius / stiffness);
+        out.push_back({0.2 * period, fmt::format("0.2 of the rolling spring's time {:.3g} s", period)});
+    }
+    return out;
+}
+
+bool has_balance(Case const& data)
+{
+    return data.gas.present && !data.gas.closed && !data.gas.density &&
+           (data.gas.inlet.dry_mass_flow > 0 || data.gas.inlet.velocity > 0);
+}
+
+Forecast forecast(Case const& data, int ranks)
+{
+    Forecast out;
+    auto const& granules = data.granules;
+    out.parcels = granules.parcels;
+    out.granules = static_cast<double>(granules.parcels) * std::pow(granules.parcel_ratio, 3);
+    out.plate_velocity = plate_velocity(data);
+    if (out.parcels > 0) {
+        double const radius = parcel_radius(data);
+        out.parcel_diameter = 2 * radius;
+        out.contact_speed = expected_contact_speed(data);
+        out.overlap = largest_overlap(data, radius, out.contact_speed) / radius;
+        out.bounds = granule_step_bounds(data, out.contact_speed);
+        double least = out.bounds.front().seconds;
+        for (auto const& bound : out.bounds) least = std::min(least, bound.seconds);
+        out.granule_step = data.time.granule_step.value_or(least);
+        if (granules.mass > 0) out.bed_height = settled_height(data).value_or(0);
+    }
+    if (data.gas.present) {
+        double const density = gas_density(data);
+        double const viscosity = data.gas.viscosity.value_or(material::viscosity(data.gas.inlet.temperature));
+        if (out.parcels > 0 && granules.density > density) {
+            out.minimum_fluidisation = std::visit(
+                [&](auto const& law) {
+                    return law::drag::minimum_fluidisation_velocity(law, granules.diameter, granules.density, density,
+                                                                    viscosity, packed_voidage);
+                },
+                law::drag::All::make(data.gas.drag).value());
+            out.terminal_velocity =
+                law::drag::terminal_velocity(granules.diameter, granules.density, density, viscosity);
+            out.reynolds = density * out.plate_velocity * granules.diameter / viscosity;
+        }
+        auto const extent = data.chamber.upper() - data.chamber.lower();
+        out.cells = 1;
+        double narrow = extent.x, fast = std::max(0.1, 3 * out.plate_velocity);
+        for (std::size_t i = 0; i < 3; ++i) {
+            out.cells *= data.gas.cells[i];
+            out.cell_size[i] = extent[i] / data.gas.cells[i];
+            if (data.gas.cells[i] > 1) narrow = std::min(narrow, out.cell_size[i]);
+        }
+        if (out.parcel_diameter > 0) out.cell_over_parcel = narrow / out.parcel_diameter;
+        for (auto const& nozzle : data.spray.nozzles)  // the jet where it fills one cell
+            fast = std::max(fast, std::sqrt(nozzle.air_mass_flow * nozzle.air_velocity / (density * narrow * narrow)));
+        out.gas_step = data.time.gas_step.value_or(0.5 * narrow / fast);
+    }
+    if (has_balance(data)) out.balance = balance(data);
+
+    double const parcels = static_cast<double>(out.parcels), cells = static_cast<double>(out.cells);
+    out.memory = parcels * bytes_per_parcel + cells * bytes_per_cell + ranks * bytes_per_rank;
+    double work = 0;
+    if (out.granule_step > 0) work += data.time.duration / out.granule_step * parcels * evaluations_per_granule_step;
+    if (out.gas_step > 0) work += data.time.duration / out.gas_step * cells * evaluations_per_cell_step;
+    out.wall_time = work / kernel_rate() / std::max(1, ranks);
+    add_warnings(data, out);
+    return out;
+}
+}

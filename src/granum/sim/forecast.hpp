@@ -1,0 +1,62 @@
+// What a case implies before anything is run: sizes, speeds, steps, balance, memory and time.
+#pragma once
+
+#include "granum/sim/balance.hpp"
+#include "granum/sim/case.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace granum::sim
+{
+//! An upper bound on the step of the granules, with its reason.
+struct GranuleStepBound
+{
+    double seconds;
+    std::string reason;
+};
+
+struct Forecast
+{
+    double granules = 0;  //!< real granules represented
+    long parcels = 0;
+    double parcel_diameter = 0;       //!< m
+    double bed_height = 0;            //!< m, settled at 60 % solids; 0 where it does not fit or there is no bed
+    double plate_velocity = 0;        //!< superficial, m/s
+    double minimum_fluidisation = 0;  //!< superficial, m/s, by the case's drag law at voidage 0.42
+    double terminal_velocity = 0;     //!< m/s of one granule
+    double reynolds = 0;              //!< of a granule at the plate velocity
+    double contact_speed = 0;         //!< m/s assumed for the bounds and the overlap
+    double overlap = 0;               //!< over the radius, at that speed
+    std::vector<GranuleStepBound> bounds;
+    double granule_step = 0;  //!< s, of the case or the smallest bound
+    double gas_step = 0;      //!< s, of the case or from the Courant number 0.5 of jet and bed
+    long cells = 0;
+    math::Vec3 cell_size;         //!< m
+    double cell_over_parcel = 0;  //!< narrowest cell edge over parcel diameter
+    std::optional<Balance> balance;
+    double memory = 0;     //!< bytes
+    double wall_time = 0;  //!< s on `ranks` cores of this machine; a rough estimate
+    std::vector<std::string> warnings;
+};
+
+//! Height, m, of a settled bed of `mass` kg at 60 % solids; nothing where the chamber is too small for it.
+std::optional<double> settled_height(Case const& data);
+
+//! Bounds from Rayleigh waves, the duration of a contact and rolling, for the parcels of the case.
+//! 0.2 of the Rayleigh time, a twentieth of the Hertz contact time, 0.2 of the period of the rolling spring.
+std::vector<GranuleStepBound> granule_step_bounds(Case const& data, double speed);
+
+//! Relative speed, m/s, that contacts are expected to reach: the larger of 0.5 m/s, the gas at the plate and what is
+//! given.
+double expected_contact_speed(Case const& data);
+
+//! Superficial velocity of the gas at the plate, m/s.
+double plate_velocity(Case const& data);
+
+//! True where the case has what a balance needs.
+bool has_balance(Case const& data);
+
+Forecast forecast(Case const& data, int ranks);
+}

@@ -1,0 +1,52 @@
+#include "granum/sim/law_families.hpp"
+
+#include "granum/law/capture/all.hpp"
+#include "granum/law/contact/all.hpp"
+#include "granum/law/deposit/all.hpp"
+#include "granum/law/drag/all.hpp"
+#include "granum/law/heat/all.hpp"
+#include "granum/product/all.hpp"
+
+#include <stdexcept>
+
+namespace granum::sim
+{
+namespace
+{
+template <class List>
+LawFamily family(std::string name, std::string key, std::string title)
+{
+    return {std::move(name), std::move(key), std::move(title), {List::cards.begin(), List::cards.end()}};
+}
+}
+
+std::vector<std::string> LawFamily::names() const
+{
+    std::vector<std::string> out;
+    for (auto const& card : cards) out.emplace_back(card.name);
+    return out;
+}
+
+std::vector<LawFamily> const& law_families()
+{
+    static std::vector<LawFamily> const all{
+        family<law::drag::All>("drag", "gas.drag", "force of the gas on the granules"),
+        family<law::heat::All>("heat-transfer", "gas.heat_transfer", "heat and vapour between granules and gas"),
+        family<law::contact::NormalLaws>("contact-normal", "contact.normal", "contact force along the line of centres"),
+        family<law::contact::TangentialLaws>("contact-tangential", "contact.tangential", "contact force across it"),
+        family<law::contact::RollingLaws>("contact-rolling", "contact.rolling", "resistance to rolling"),
+        family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
+        family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
+        family<product::All>("porosity", "product.porosity_model",
+                             "porosity of the layer from the history of its deposits"),
+    };
+    return all;
+}
+
+std::vector<std::string> laws_for(std::string const& key)
+{
+    for (auto const& family : law_families())
+        if (family.key == key) return family.names();
+    throw std::out_of_range("no family of laws is chosen by " + key);
+}
+}
