@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Holds the manual against the tree: links between pages lead somewhere, doc/reference/case.md names exactly the keys that the
-case reader asks for, and the theory pages name every law."""
+case reader asks for, doc/reference/run-folder.md every column of the event table, and the theory pages every law."""
 import pathlib
 import re
 import sys
@@ -51,9 +51,17 @@ def laws_without_a_page(root):
                 yield f"{file.relative_to(root)}: law {name} is on no page of doc/theory"
 
 
+def events_without_a_line(root):
+    page = (root / "doc/reference/run-folder.md").read_text()
+    header = root / "src/granum/drying/event.hpp"
+    for name in re.findall(r'^\s*\{"([a-z_]+)", "[^"]*", "', header.read_text(), re.MULTILINE):
+        if f"`{name}`" not in page:
+            yield f"doc/reference/run-folder.md: event column {name} is not explained"
+
+
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    errors = list(broken_links(root)) + list(laws_without_a_page(root))
+    errors = [*broken_links(root), *laws_without_a_page(root), *events_without_a_line(root)]
     read, documented = keys_read(root), keys_documented(root)
     errors += [f"doc/reference/case.md: {key} is read from a case and not documented" for key in sorted(read - documented)]
     errors += [f"doc/reference/case.md: no case reader asks for {key}" for key in sorted(documented - read)]

@@ -12,7 +12,7 @@ import sys
 
 # Where each external header may be included: names of rooms, or of the folders app, test and bench.
 EXTERNAL = {
-    r"toml(\+\+|\.hpp|plusplus)": {"io"},
+    r"toml(\+\+|\.hpp|plusplus)": {"io", "test"},
     r"udunits2\.h": {"io"},
     r"(hdf5|H5\w*)\.h": {"io", "test"},
     r"zlib\.h": {"io", "report", "test"},
