@@ -203,6 +203,24 @@ TEST(MinimumFluidisation, agrees_with_independent_numbers)
     }
 }
 
+TEST(MinimumFluidisation, of_unknown_voidage_agrees_with_independent_numbers)
+{
+    struct Bed
+    {
+        double diameter, density, archimedes, speed;
+    };
+    for (auto const& bed : {Bed{1.2e-3, 1000, 6.271e4, 0.3385},
+                            {2.5e-3, 2526, 1.433e6, 1.2628},
+                            {3.256e-3, 1131, 1.417e6, 0.9633},
+                            {1e-3, 2500, 9.079e4, 0.5380},
+                            {4.04e-3, 2526, 6.049e6, 1.7236},
+                            {3e-3, 2505, 2.456e6, 1.4233},
+                            {0.6e-3, 1445, 1.133e4, 0.1569}}) {
+        EXPECT_NEAR(drag::archimedes(bed.diameter, bed.density, 1.2, 1.8e-5), bed.archimedes, 5.1e-4 * bed.archimedes);
+        EXPECT_NEAR(drag::wen_yu_fluidisation_velocity(bed.diameter, bed.density, 1.2, 1.8e-5), bed.speed, 0.51e-4);
+    }
+}
+
 TEST(TerminalVelocity, agrees_with_independent_numbers)
 {
     EXPECT_NEAR(drag::terminal_velocity(30e-6, 1000, 1.2, 1.8e-5), 0.02668, 0.5e-5);

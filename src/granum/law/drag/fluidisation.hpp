@@ -33,6 +33,22 @@ double minimum_fluidisation_velocity(Law const& law, double diameter, double den
     return superficial_speed(law, force, 1 - voidage, diameter, gas_density, viscosity);
 }
 
+//! Archimedes number of a granule: its buoyant weight over the viscous forces.
+inline double archimedes(double diameter, double density, double gas_density, double viscosity,
+                         double gravity = math::standard_gravity)
+{
+    return diameter * diameter * diameter * gas_density * (density - gas_density) * gravity / (viscosity * viscosity);
+}
+
+//! Superficial speed, m/s, at which a bed of unknown voidage begins to float. Source: Wen, Yu, AIChE J. 12 (1966) 610
+//! (recalled).
+inline double wen_yu_fluidisation_velocity(double diameter, double density, double gas_density, double viscosity,
+                                           double gravity = math::standard_gravity)
+{
+    double const number = archimedes(diameter, density, gas_density, viscosity, gravity);
+    return (std::sqrt(33.7 * 33.7 + 0.0408 * number) - 33.7) * viscosity / (gas_density * diameter);
+}
+
 //! Speed, m/s, of one sphere that falls steadily through a gas at rest, by the drag of Schiller and Naumann.
 inline double terminal_velocity(double diameter, double density, double gas_density, double viscosity,
                                 double gravity = math::standard_gravity)
