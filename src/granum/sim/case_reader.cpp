@@ -60,4 +60,18 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
     out.warnings.insert(out.warnings.end(), file.warnings().begin(), file.warnings().end());
     return out;
 }
+
+std::string explain(ResolvedCase const& resolved)
+{
+    std::size_t wide_key = 0, wide_value = 0;
+    for (auto const& entry : resolved.origins) {
+        wide_key = std::max(wide_key, entry.key.size());
+        wide_value = std::max(wide_value, std::min<std::size_t>(entry.value.size(), 32));
+    }
+    std::string out;
+    for (auto const& entry : resolved.origins)
+        out += fmt::format("{:<{}} = {:<{}}  # {}{}{}\n", entry.key, wide_key, entry.value, wide_value, entry.origin,
+                           entry.doc.empty() ? "" : ": ", entry.doc);
+    return out;
+}
 }

@@ -16,4 +16,7 @@ enum class Purpose
 
 //! Reads, resolves and checks the case at `path`. Throws base::CaseError with every mistake found.
 ResolvedCase read_case(std::string const& path, Purpose purpose = Purpose::run);
+
+//! Every value of the case with its origin, one per line, for people.
+std::string explain(ResolvedCase const& resolved);
 }

@@ -14,7 +14,7 @@ struct RunOptions
 {
     std::string folder;           //!< of the results; does not exist yet
     std::optional<double> until;  //!< s of simulated time, instead of the case's duration
-    bool json = false;            //!< prints summary.json to stdout at the end
+    bool json = false;            //!< the program prints summary.json at the end, so nothing else may go to stdout
     bool quiet = false;           //!< no live line, no closing words
 };
 

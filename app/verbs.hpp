@@ -1,0 +1,21 @@
+// The verbs of the program: each adds itself to the command line and does its work, giving the exit status.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace granum::app
+{
+using Action = std::function<int()>;
+
+//! Each makes its subcommand and sets `action` when it was chosen.
+void add_run(CLI::App& program, Action& action);
+void add_check(CLI::App& program, Action& action);
+void add_explain(CLI::App& program, Action& action);
+void add_balance(CLI::App& program, Action& action);
+void add_list(CLI::App& program, Action& action);
+void add_new(CLI::App& program, Action& action);
+void add_report(CLI::App& program, Action& action);
+}
