@@ -2,6 +2,11 @@
 //
 // Stored state is what is conserved: mass, vapour and enthalpy of the gas in each cell (kg, kg, J; voidage and cut
 // volume included) and the velocity on the faces. Temperature, mass fraction and density follow from it.
+//
+// A step is: momentum predictor on the faces (staggered grid, implicit upwind convection and drag); projection onto
+// mass fluxes that bring each cell to the mass its equation of state asks for at the end of the step; vapour and heat
+// carried by these same fluxes. What is stored changes by fluxes and sources only: conservation does not hang on any
+// tolerance. The equations are those of model A: the gas has eps grad p and eps div tau, the granules the rest of both.
 #pragma once
 
 #include "granum/grid/grid.hpp"
@@ -12,53 +17,58 @@
 
 namespace granum::gas
 {
-using grid::Field;
 using grid::FaceField;
+using grid::Field;
 using math::Vec3;
 
 //! Gas that enters through the plate (z = 0), uniform over its open area.
 struct Inlet
 {
-    double mass_flow = 0;      //!< kg/s of moist gas, whole plate
+    double mass_flow = 0;         //!< kg/s of moist gas, whole plate
     double temperature = 293.15;  //!< K
     double vapour_fraction = 0;   //!< kg/kg moist gas
 };
 
 struct Settings
 {
-    std::optional<Inlet> inlet;     //!< none: a closed or periodic box
-    bool outlet = true;             //!< open top at `pressure`
-    double pressure = 101325;       //!< Pa
+    std::optional<Inlet> inlet;  //!< none: a closed or periodic box
+    bool outlet = true;          //!< open top at `pressure`
+    double pressure = 101325;    //!< Pa
+    //! Pressure drop per velocity of what covers the outlet (filter, duct), Pa s/m. A few Pa even out the outflow and
+    //! keep heavier gas from falling in; 0 leaves the top open to still air.
+    double outlet_resistance = 30;
     Vec3 gravity{0, 0, -9.81};
-    std::optional<double> density, viscosity;  //!< constant instead of moist air
+    std::optional<double> density, viscosity;                          //!< constant instead of moist air
     double ambient_temperature = 293.15, ambient_vapour_fraction = 0;  //!< of gas drawn in through the outlet
-    double tolerance = 1e-8;        //!< of the pressure solve, relative to the first residual
+    double tolerance = 1e-8;  //!< of the pressure solve, relative to the first residual
 };
 
 //! Conserved and derived state. Every field has ghosts.
 struct State
 {
-    Field mass, vapour, enthalpy;     //!< kg, kg, J per cell; enthalpy zero: dry air and liquid water at 0 degC
-    FaceField velocity;               //!< interstitial, m/s
-    Field pressure;                   //!< Pa above the outlet's, hydrostatic part included
-    Field voidage;                    //!< of the open volume
+    Field mass, vapour, enthalpy;  //!< kg, kg, J per cell; enthalpy zero: dry air and liquid water at 0 degC
+    FaceField velocity;            //!< interstitial, m/s
+    FaceField mass_flux;           //!< through the lower faces in the last step, kg/s
+    Field pressure;                //!< Pa above the outlet's, hydrostatic part included
+    Field voidage;                 //!< of the open volume
     Field temperature, vapour_fraction, density;  //!< derived: K, kg/kg, kg/m3
 };
 
 //! What others do to the gas during one step; cleared by `clear`. Per cell, not per volume.
 struct Sources
 {
-    Field drag_coefficient;           //!< kg/s: sum of the parcels' effective coefficients
+    Field drag_coefficient;              //!< kg/s: sum of the parcels' effective coefficients
     std::array<Field, 3> drag_momentum;  //!< N: sum of coefficient times parcel velocity
-    std::array<Field, 3> force;       //!< N, explicit: nozzle, droplets, carried drag
-    Field mass, vapour;               //!< kg/s
-    Field enthalpy;                   //!< W, explicit, with the enthalpy of what enters
-    Field heat_coefficient;           //!< W/K, implicit: Q = heat_value - heat_coefficient (T - 273.15)
-    Field heat_value;                 //!< W
+    std::array<Field, 3> force;          //!< N, explicit: nozzle, droplets, carried drag
+    Field mass, vapour;                  //!< kg/s; gas enters at rest, its momentum belongs into `force`
+    Field enthalpy;                      //!< W, explicit, with the enthalpy of what enters
+    Field heat_coefficient;              //!< W/K, implicit: Q = heat_value - heat_coefficient (T - 273.15)
+    Field heat_value;                    //!< W
     void clear(grid::Grid const& grid);
 };
 
-//! What passed the boundaries in the last step (this rank's share), for the ledgers.
+//! What passed the boundaries in the last step (this rank's share), for the ledgers. `in` is the plate; `out` is the
+//! top, net of what was drawn in there.
 struct Balance
 {
     double mass_in = 0, mass_out = 0, vapour_in = 0, vapour_out = 0, enthalpy_in = 0, enthalpy_out = 0;  //!< kg, J
@@ -78,18 +88,29 @@ class Solver
     Solver(Settings settings, grid::Grid const& grid, par::Communicator const& comm);
     ~Solver();
 
-    //! Uniform state with the given voidage, temperature and vapour fraction; hydrostatic pressure.
+    //! Uniform state with the given voidage, temperature and vapour fraction; hydrostatic pressure. The inlet's faces
+    //! have the inlet's velocity. Collective.
     State start(Field const& voidage, double temperature, double vapour_fraction, Vec3 velocity) const;
 
-    //! One step: momentum, pressure, vapour, enthalpy. `voidage` is that at the end of the step. Collective.
+    //! One step: momentum, pressure, vapour, enthalpy. `voidage` is that at the end of the step; `sources` of owned
+    //! cells are read. Throws base::NumericsError with field, cell and position where a number is not finite or a cell
+    //! runs out of gas. Collective.
     Balance advance(State& state, Sources const& sources, Field const& voidage, double dt);
 
-    //! Largest stable or accurate step: Courant number `courant` on the present velocities.
+    //! Step with Courant number `courant` at the largest velocity component, s; infinite for gas at rest. Collective.
     double courant_step(State const& state, double courant) const;
 
-    //! Pressure gradient plus hydrostatic-free viscous part per cell, Pa/m: the mean of the cell's faces by FaceWeights.
+    //! grad p - div tau of the total pressure, Pa/m, and velocity, m/s: means of the cell's faces by FaceWeights,
+    //! ghosts filled. A granule of volume V takes the force -V (grad p - div tau) beside its drag. Collective.
     std::array<Field, 3> cell_pressure_gradient(State const& state) const;
     std::array<Field, 3> cell_velocity(State const& state) const;
+
+    //! Temperature that the implicit heat term of the last step was taken at, K: the gas received
+    //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by the solver's tolerance only.
+    Field const& exchanged_temperature() const;
+
+    //! Momentum of the gas on all faces of all ranks, kg m/s. Collective.
+    Vec3 momentum(State const& state) const;
 
     FaceWeights const& weights() const;
     Settings const& settings() const;
