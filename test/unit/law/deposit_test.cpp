@@ -85,6 +85,11 @@ TEST(CombinedRate, is_that_of_the_cap_when_few_are_wet_and_of_the_layer_when_man
     }
     EXPECT_EQ(combined(0, 0, 0, 0), 0) << "no driving force";
     EXPECT_LT(combined(-cap, -cap, 0, -full), 0) << "uptake of water is shared alike";
+    for (double const n : {1.0, 999.0, 1000.0, 1001.0, 1e6}) {
+        double const uptake = combined(-cap, -n * cap, 0, full);  // salt takes up water where water would leave
+        EXPECT_LT(uptake, 0);
+        EXPECT_GE(uptake, -cap);
+    }
 }
 
 TEST(DepositLaws, pick_their_limit_by_name)

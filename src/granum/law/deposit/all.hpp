@@ -6,6 +6,8 @@
 
 #include "granum/base/type_list.hpp"
 
+#include <cmath>
+
 namespace granum::law::deposit
 {
 struct Cap
@@ -35,10 +37,12 @@ struct Combined
                                      .source = "series of the two resistances, a choice of this program",
                                      .valid = "from few caps (cap) to a wet granule (boundary layer)"};
 
+    //! The share is taken of magnitudes: next to saturation salt deposits may take up water while water would still
+    //! leave, and a signed ratio would then pass through -1.
     double operator()(double cap_rate, double sum_of_cap_rates, double, double full_layer_rate) const
     {
         if (full_layer_rate == 0) return 0;  // no driving force, or no way out
-        return cap_rate / (1 + sum_of_cap_rates / full_layer_rate);
+        return cap_rate / (1 + std::abs(sum_of_cap_rates / full_layer_rate));
     }
 };
 
