@@ -24,14 +24,18 @@ struct Film
     double driving() const { return std::log1p(-gas_fraction) - std::log1p(-surface_fraction); }
 };
 
-//! kg vapour per kg moist air over a liquid of `water_activity` at `temperature` K. Near boiling the molar fraction is
-//! held at 0.999, where the driving force is large but finite.
-inline double surface_fraction(double temperature, double water_activity, double pressure)
+//! kg vapour per kg moist air of a molar fraction, held at 0.999, where the driving force is large but finite.
+inline double mass_fraction(double molar_fraction)
 {
-    double const partial = water_activity * material::saturation_pressure(temperature);
-    double const molar = std::min(partial / pressure, 0.999);
+    double const molar = std::min(molar_fraction, 0.999);
     double const water = molar * material::molar_mass_water;
     return water / (water + (1 - molar) * material::molar_mass_air);
+}
+
+//! kg vapour per kg moist air over a liquid of `water_activity` at `temperature` K.
+inline double surface_fraction(double temperature, double water_activity, double pressure)
+{
+    return mass_fraction(water_activity * material::saturation_pressure(temperature) / pressure);
 }
 
 //! Film between a surface at `surface_temperature` K and air at `air_temperature` K with `vapour_fraction` kg/kg.
