@@ -1,0 +1,26 @@
+// The sections of the page, each from what the run left behind; a section without its data says so.
+#pragma once
+
+#include "granum/report/run_folder.hpp"
+
+#include <string>
+
+namespace granum::report
+{
+std::string verdict_section(RunFolder const& run);   //!< title, how the run ended, what the product will be
+std::string checks_section(RunFolder const& run);    //!< ledgers and agreement with the balance, in words
+std::string pictures_section(RunFolder const& run);  //!< also writes pictures/*.png into the run folder
+std::string curves_section(RunFolder const& run);
+std::string events_section(RunFolder const& run);
+std::string porosity_section(RunFolder const& run);
+std::string product_section(RunFolder const& run);
+std::string spray_section(RunFolder const& run);
+std::string performance_section(RunFolder const& run);
+std::string warnings_section(RunFolder const& run);
+std::string case_section(RunFolder const& run);
+
+//! A figure with its sentence; the sentence alone, with "no data yet", where `drawing` is empty.
+std::string figure(std::string const& drawing, std::string const& caption);
+//! <section id=...> with its heading.
+std::string section(std::string const& id, std::string const& heading, std::string const& body);
+}
