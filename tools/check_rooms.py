@@ -25,7 +25,7 @@ EXTERNAL = {
     r"(gtest|gmock|rapidcheck)[/.]": {"test"},
     r"benchmark/": {"bench"},
 }
-SYSTEM = r"[a-z_0-9]+|(unistd|signal|fcntl|execinfo|sys/[a-z]+)(\.h)?"
+SYSTEM = r"[a-z_0-9]+|(unistd|signal|sched|fcntl|execinfo|sys/[a-z]+)(\.h)?"
 BEGIN, END = "<!-- floor plan: begin -->", "<!-- floor plan: end -->"
 
 
