@@ -79,7 +79,7 @@ int check(std::string const& path)
                                     100 * b.outlet_relative_humidity, b.wet_bulb - 273.15, b.eta));
     }
     line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));
-    line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (a guess good to a factor of three)",
+    line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)",
                                   duration(f.wall_time), data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
     for (auto const& warning : resolved.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("the case can be run\n");

@@ -514,8 +514,7 @@ void CaseFile::Inside::unknown_key(std::string const& key, int line, toml::node 
     auto const word = key.substr(parent(key).empty() ? 0 : parent(key).size() + 1);
     std::vector<std::string> siblings;
     for (auto const& name : known)
-        if (parent(name) == home && name.find("[]") >= name.size() - (name.ends_with("[]") ? 2 : 0))
-            siblings.push_back(name.substr(home.empty() ? 0 : home.size() + 1));
+        if (parent(name) == home) siblings.push_back(name.substr(home.empty() ? 0 : home.size() + 1));
     if (home.empty())
         for (auto const& name : sections) siblings.push_back(name);
     std::sort(siblings.begin(), siblings.end());

@@ -157,7 +157,7 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
     if (granules.start == "given" && !file.wrong("granules.start"))
         file.mistake("granules.start", "needs granules.file or [[granule]] tables");
     if (!mass) {
-        if (needed && !file.wrong("granules.mass"))
+        if (needed && !file.wrong("granules.mass") && !file.has("granules.file") && !file.has("granule"))
             file.mistake("granules.mass", "is missing", {"the batch, e.g. \"1 kg\""});
         return;
     }

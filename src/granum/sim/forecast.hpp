@@ -37,7 +37,7 @@ struct Forecast
     double cell_over_parcel = 0;  //!< narrowest cell edge over parcel diameter
     std::optional<Balance> balance;
     double memory = 0;     //!< bytes
-    double wall_time = 0;  //!< s on `ranks` cores of this machine; a rough estimate
+    double wall_time = 0;  //!< s on `ranks` cores of this machine; an order of magnitude
     std::vector<std::string> warnings;
 };
 

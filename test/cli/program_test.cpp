@@ -1,0 +1,173 @@
+// The program as a person meets it: wrong cases, wrong words, and what comes back.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+struct Answer
+{
+    int status;
+    std::string text;  //!< both streams
+};
+
+//! A folder of its own for each test, so that anything left behind is seen.
+class Program : public ::testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        folder_ = fs::temp_directory_path() / ("granum-cli-" + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    Answer call(std::string const& words) const
+    {
+        auto const line = "cd '" + folder_.string() + "' && '" GRANUM_PROGRAM "' " + words + " 2>&1";
+        std::array<char, 4096> part{};
+        std::string text;
+        FILE* pipe = popen(line.c_str(), "r");
+        while (std::size_t const got = std::fread(part.data(), 1, part.size(), pipe)) text.append(part.data(), got);
+        return {WEXITSTATUS(pclose(pipe)), text};
+    }
+    bool left_nothing() const { return fs::is_empty(folder_); }
+
+    fs::path folder_;
+};
+
+struct Wrong
+{
+    fs::path path;
+    int line = 0;
+    std::vector<std::string> words;
+};
+
+//! The first line of each file says which line the message must name and which words it must have.
+std::vector<Wrong> wrong_cases()
+{
+    std::vector<Wrong> all;
+    for (auto const& entry : fs::directory_iterator(GRANUM_SOURCE_DIR "/test/cli/wrong")) {
+        Wrong one{entry.path(), 0, {}};
+        std::ifstream in(entry.path());
+        std::string first, word;
+        std::getline(in, first);
+        one.line = std::stoi(first.substr(std::string("# expect ").size()));
+        std::istringstream words(first.substr(first.find(": ") + 2));
+        while (std::getline(words, word, '|')) one.words.push_back(word);
+        all.push_back(one);
+    }
+    return all;
+}
+}
+
+TEST_F(Program, refuses_each_wrong_case_in_one_screen_and_leaves_nothing)
+{
+    auto const cases = wrong_cases();
+    EXPECT_EQ(cases.size(), 12u);
+    for (auto const& wrong : cases)
+        for (auto const* verb : {"check ", "run "}) {
+            auto const [status, text] = call(verb + ("'" + wrong.path.string() + "'"));
+            auto const place = wrong.path.string() + ":" + std::to_string(wrong.line) + ": ";
+            EXPECT_EQ(status, 2) << verb << wrong.path;
+            EXPECT_TRUE(text.starts_with(place)) << "expected " << place << " got\n" << text;
+            EXPECT_EQ(text.find(".toml:", place.size()), std::string::npos) << "one cause, one message:\n" << text;
+            for (auto const& word : wrong.words)
+                EXPECT_NE(text.find(word), std::string::npos) << word << " in\n" << text;
+            EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24);
+            EXPECT_TRUE(left_nothing()) << verb << wrong.path << " left something behind";
+        }
+}
+
+TEST_F(Program, suggests_the_near_name_of_a_missing_case)
+{
+    std::ofstream(folder_ / "case.toml") << "";
+    auto const [status, text] = call("run cse.toml");
+    EXPECT_EQ(status, 2);
+    EXPECT_NE(text.find("did you mean \"case.toml\"?"), std::string::npos) << text;
+}
+
+TEST_F(Program, suggests_the_near_verb)
+{
+    auto const [status, text] = call("rum case.toml");
+    EXPECT_EQ(status, 2);
+    EXPECT_NE(text.find("did you mean \"granum run\"?"), std::string::npos) << text;
+    EXPECT_EQ(call("").status, 2);
+    EXPECT_EQ(call("--help").status, 0);
+    EXPECT_EQ(call("run").status, 2);
+    EXPECT_EQ(call("run case.toml --nonsense").status, 2);
+}
+
+TEST_F(Program, writes_templates_that_check)
+{
+    for (auto const* name : {"lab-gf3", "pilot-x8", "rectangular-bed"}) {
+        auto const printed = call(std::string("new ") + name);
+        EXPECT_EQ(printed.status, 0);
+        EXPECT_LE(std::count(printed.text.begin(), printed.text.end(), '\n'), 60) << name;
+        EXPECT_EQ(call(std::string("new ") + name + " -o " + name + ".toml").status, 0);
+        auto const checked = call(std::string("check ") + name + ".toml");
+        EXPECT_EQ(checked.status, 0) << checked.text;
+        EXPECT_NE(checked.text.find("granule step"), std::string::npos);
+        EXPECT_EQ(call(std::string("new ") + name + " -o " + name + ".toml").status, 2) << "must not overwrite";
+    }
+    EXPECT_EQ(call("new lab-gf").status, 2);
+}
+
+TEST_F(Program, checks_in_under_half_a_second)
+{
+    auto const start = std::chrono::steady_clock::now();
+    EXPECT_EQ(call("check '" GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml'").status, 0);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.5);
+}
+
+TEST_F(Program, gives_a_balance_as_json)
+{
+    auto const [status, text] = call("balance --json '" GRANUM_SOURCE_DIR "/examples/balance/1.toml'");
+    EXPECT_EQ(status, 0);
+    for (auto const* key : {"eta", "outlet_humidity", "outlet_temperature_K", "wet_bulb_K", "wet_bulb_humidity",
+                            "outlet_relative_humidity"})
+        EXPECT_NE(text.find(std::string("\"") + key + "\": "), std::string::npos) << key;
+    EXPECT_NE(text.find("\"eta\": 0.7174"), std::string::npos) << text;
+}
+
+TEST_F(Program, lists_laws_and_knows_its_families)
+{
+    EXPECT_NE(call("list drag").text.find("beetstra"), std::string::npos);
+    EXPECT_EQ(call("list drag").text.find("gunn"), std::string::npos);
+    EXPECT_NE(call("list").text.find("gunn"), std::string::npos);
+    EXPECT_EQ(call("list dragg").status, 2);
+}
+
+TEST_F(Program, explains_where_each_value_comes_from)
+{
+    auto const text = call("explain '" GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml'").text;
+    EXPECT_NE(text.find("# material sodium-benzoate-30"), std::string::npos) << text;
+    EXPECT_NE(text.find("# default"), std::string::npos);
+    EXPECT_NE(text.find("# derived"), std::string::npos);
+    EXPECT_NE(text.find("# line "), std::string::npos);
+}
+
+TEST_F(Program, refuses_a_folder_that_is_taken_and_a_report_of_nothing)
+{
+    fs::create_directories(folder_ / "mine");
+    std::ofstream(folder_ / "mine" / "thesis.txt") << "years of work";
+    auto const [status, text] = call("run '" GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml' -o mine");
+    EXPECT_EQ(status, 2);
+    EXPECT_NE(text.find("exists already"), std::string::npos) << text;
+    EXPECT_EQ(call("report nowhere").status, 2);
+    EXPECT_EQ(call("run '" GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml' --until 3").status, 2)
+        << "a time needs a unit";
+}
