@@ -5,6 +5,7 @@
 // one partner is a ghost is known on both sides, each with its own copy of the same history.
 #pragma once
 
+#include "granum/law/contact/pair.hpp"
 #include "granum/particle/store.hpp"
 
 #include <cstdint>
@@ -18,7 +19,7 @@ using particle::Id;
 //! What a contact remembers.
 struct History
 {
-    Vec3 slip;                //!< tangential displacement of the partner with the lower id against the other, m
+    law::contact::Slip slip;  //!< of the partner with the lower id against the other
     Vec3 rolling;             //!< rolling torque on the partner with the lower id, N m
     double overlap = 0;       //!< m
     double normal_force = 0;  //!< N

@@ -22,7 +22,7 @@ std::optional<Touch> touch_one(ConeWall const& wall, Vec3 const& centre, double 
     double const along = ((axis_distance - wall.r0) * dr + (centre.z - wall.z0) * dz) / length2;
     Vec3 const outward =
         axis_distance > 0 ? Vec3{centre.x / axis_distance, centre.y / axis_distance, 0} : Vec3{1, 0, 0};
-    if (along >= 0 && along <= 1) {
+    if (along >= 0 && along < 1) {  // where two sections meet, the upper one has the face
         double const length = std::sqrt(length2);
         // Positive inside: the side of the segment that faces the axis.
         double const distance = ((wall.r0 - axis_distance) * dz + (centre.z - wall.z0) * dr) / length;

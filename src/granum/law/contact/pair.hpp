@@ -35,6 +35,13 @@ struct NormalForce
     double contact_radius;  //!< sqrt(R* overlap), m
 };
 
+//! What a tangential law keeps from step to step.
+struct Slip
+{
+    Vec3 displacement;     //!< of the first partner against the second, m
+    double stiffness = 0;  //!< at the step before, N/m
+};
+
 //! Answer of a tangential law.
 struct TangentialForce
 {

@@ -22,26 +22,28 @@ struct Mindlin
 
     //! Moves `slip` (m, first partner against second) on by `velocity` * dt and answers with the force on the first.
     TangentialForce operator()(Pair const& pair, Approach const& at, NormalForce const& normal, Vec3 const& n,
-                               Vec3 const& velocity, double dt, Vec3& slip) const
+                               Vec3 const& velocity, double dt, Slip& slip) const
     {
         double const stiffness = 8 * pair.shear_modulus * normal.contact_radius;
         double const viscous = 2 * pair.damping * std::sqrt(stiffness * at.mass);
-        Vec3 const before = turned_into_plane(slip, n);
-        slip = before + dt * velocity;
-        Vec3 force = -stiffness * slip - viscous * velocity;
-        // The velocity is that of the middle of the last step; half a step of this contact's own acceleration
-        // (7/2 over m* at the surface of spheres) brings it to the end, where the force is.
-        auto const now = [&] { return velocity + (1.75 * dt / at.mass) * force; };
+        Vec3 const before = turned_into_plane(slip.displacement, n);
+        Vec3 const spring_before = -slip.stiffness * before;
+        slip = {before + dt * velocity, stiffness};
+        Vec3 const spring = -stiffness * slip.displacement;
+        Vec3 force = spring - viscous * velocity;
         double const limit = pair.sliding_friction * normal.force;
         double const size2 = norm2(force);
         if (size2 <= limit * limit) {
-            double const energy = 0.5 * stiffness * norm2(slip);
-            double const work = energy - 0.5 * stiffness * norm2(before) + viscous * dt * dot(velocity, now());
-            return {force, stiffness, energy, work};
+            // The velocity is that of the middle of the last step; half a step of this contact's own acceleration
+            // (7/2 over m* at the surface of spheres) brings it to the end, where the dashpot acts.
+            Vec3 const now = velocity + (1.75 * dt / at.mass) * force;
+            double const work = dt * (viscous * dot(velocity, now) - 0.5 * dot(spring_before + spring, velocity));
+            return {force, stiffness, 0.5 * stiffness * norm2(slip.displacement), work};
         }
         force *= limit / std::sqrt(size2);
-        slip = force * (-1 / stiffness);
-        return {force, stiffness, 0.5 * stiffness * norm2(slip), -dt * dot(force, now())};
+        slip.displacement = force * (-1 / stiffness);
+        return {force, stiffness, 0.5 * stiffness * norm2(slip.displacement),
+                -0.5 * dt * dot(spring_before + force, velocity)};
     }
 };
 }
