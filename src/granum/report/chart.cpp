@@ -188,21 +188,20 @@ std::string svg(CurveChart const& chart)
 
     std::string out = open_svg(chart.y.label) + frame(across, up, chart.x.label, chart.y.label);
     std::vector<LegendEntry> entries;
-    for (auto const& level : chart.levels) {
-        if (!std::isfinite(level.value)) continue;
-        out += fmt::format(
-            "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#333\" "
-            "stroke-width=\"1.5\"{3}/>",
-            across.from, across.to, up(level.value), dashes(Stroke::dashed));
-    }
     for (auto const& curve : chart.curves) {
         out +=
             fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
                         path_of(curve, across, up), curve.colour, dashes(curve.stroke));
         entries.push_back({curve.label, curve.colour, curve.stroke});
     }
+    for (auto const& level : chart.levels) {  // above the curves, on a pale band, or a noisy curve would hide them
+        if (!std::isfinite(level.value)) continue;
+        std::string const line = fmt::format("M{:.1f} {:.1f}H{:.1f}", across.from, up(level.value), across.to);
+        out += fmt::format("<path d=\"{}\" stroke=\"#fff\" stroke-width=\"4\" stroke-opacity=\"0.75\"/>", line);
+        out += fmt::format("<path d=\"{}\" stroke=\"#222\" stroke-width=\"1.8\"{}/>", line, dashes(Stroke::dashed));
+    }
     for (auto const& level : chart.levels)
-        if (std::isfinite(level.value)) entries.push_back({level.label, "#333", Stroke::dashed});
+        if (std::isfinite(level.value)) entries.push_back({level.label, "#222", Stroke::dashed});
     return out + legend(entries) + "</svg>";
 }
 

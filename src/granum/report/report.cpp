@@ -60,9 +60,9 @@ tr.sum td { font-weight: 600; border-top: 1px solid #9aa5ad; }
 summary { cursor: pointer; }
 pre { background: #f5f7f8; border: 1px solid #dfe4e8; padding: 14px; overflow-x: auto; font-size: 12.5px; line-height: 1.45; white-space: pre-wrap; }
 footer { margin-top: 50px; color: #4a545e; font-size: 13px; border-top: 1px solid #cfd6dc; padding-top: 10px; }
-@media (max-width: 820px) { .tiles { grid-template-columns: repeat(2, 1fr); } .pictures, .charts { grid-template-columns: 1fr; } body { padding: 16px; } }
+@media screen and (max-width: 820px) { .tiles { grid-template-columns: repeat(2, 1fr); } .pictures, .charts { grid-template-columns: 1fr; } body { padding: 16px; } }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-  h2 { break-after: avoid; margin-top: 24px; } pre { font-size: 8pt; } }
+  h2 { break-after: avoid; margin-top: 24px; } .tile .value { font-size: 15pt; } pre { font-size: 8pt; } }
 )";
 }
 

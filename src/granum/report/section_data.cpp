@@ -1,4 +1,4 @@
-// Curves, histograms and tables of the page.
+// What happened over time, how the deposits dried, and the product that follows.
 #include "granum/math/constants.hpp"
 #include "granum/product/aggregate.hpp"
 #include "granum/report/chart.hpp"
@@ -24,16 +24,6 @@ std::vector<double> converted(std::vector<double> values, Convert const& convert
 {
     for (auto& value : values) value = convert(value);
     return values;
-}
-
-std::string row(std::string const& name, std::string const& value)
-{
-    return fmt::format("<tr><td>{}</td><td class=\"num\">{}</td></tr>", escape(name), escape(value));
-}
-
-std::string percent(double part, double whole)
-{
-    return whole > 0 ? number(100 * part / whole, 3) + "\u00a0%" : not_available;
 }
 
 //! One curve of the time series with a level from the summary.
@@ -193,9 +183,10 @@ std::string events_section(RunFolder const& run)
     out += histogram(events_of(run, "drying_potential"), {"local drying potential at impact"}, "",
                      "Drying potential of the gas around the granule at impact; its spread is what a model of the "
                      "whole apparatus cannot see.");
-    out += histogram(events_of(run, "moisture_at_impact"), {"water per solids at impact (kg/kg)"}, "kg/kg",
-                     "State of the droplets when they hit; values below the feed's mean drying in flight.");
-    out += histogram(events_of(run, "droplet_diameter", {1e6, 0}), {"droplet diameter at impact (µm)"}, "µm",
+    out +=
+        histogram(events_of(run, "moisture_at_impact"), {"water per solids at impact (kg/kg)"}, "kg/kg",
+                  "State of the droplets when they hit; less water than in the feed means that they dried in flight.");
+    out += histogram(events_of(run, "droplet_diameter", {1e6, 0}), {"droplet diameter at impact (µm)", true}, "µm",
                      "Size of the droplets that built the layer.");
     return section("events", "How the deposits dried", out + "</div>");
 }
@@ -280,71 +271,5 @@ std::string product_section(RunFolder const& run)
     out += row("solids dried on the granules",
                run.value("product.layer_kg") ? quantity(1000 * *run.value("product.layer_kg"), "g", 3) : not_available);
     return section("product", "Size and moisture of the product", out + "</tbody></table></div></div>");
-}
-
-std::string spray_section(RunFolder const& run)
-{
-    double const sprayed = run.value("spray.sprayed_kg").value_or(0);
-    struct Part
-    {
-        char const *name, *key;
-    };
-    constexpr std::array<Part, 4> parts{{{"deposited on granules", "spray.deposited_kg"},
-                                         {"overspray (dried in flight or carried out)", "spray.overspray_kg"},
-                                         {"on walls", "spray.on_walls_kg"},
-                                         {"still in flight", "spray.in_flight_kg"}}};
-    std::vector<Share> shares;
-    std::string table = "<table class=\"narrow\"><tbody>";
-    for (auto const& part : parts) {
-        auto const mass = run.value(part.key);
-        shares.push_back({part.name, mass.value_or(0)});
-        table += fmt::format("<tr><td>{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>", part.name,
-                             mass ? quantity(1000 * *mass, "g", 4) : not_available,
-                             mass ? percent(*mass, sprayed) : not_available);
-    }
-    table += fmt::format(
-        "<tr class=\"sum\"><td>sprayed</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr></tbody></table>",
-        run.value("spray.sprayed_kg") ? quantity(1000 * sprayed, "g", 4) : not_available,
-        sprayed > 0 ? "100\u00a0%" : "");
-    return section(
-        "spray", "Where the solids of the spray went",
-        figure(split_bar(shares), "Solids of the sprayed liquid: only the deposited part becomes product.") + table);
-}
-
-std::string performance_section(RunFolder const& run)
-{
-    std::vector<Share> shares;
-    auto const& split = run.at("performance.share");
-    if (split.is_object())
-        for (auto const& [name, value] : split.items())
-            if (value.is_number()) shares.push_back({name, value.get<double>()});
-    std::string out = figure(split_bar(shares), "Where the computing time went.") + "<table class=\"narrow\"><tbody>";
-    auto const speed = run.value("performance.granule_steps_per_s");
-    out +=
-        row("steps of a parcel per second", speed ? fmt::format("{} million", number(*speed / 1e6, 3)) : not_available);
-    auto const wall = run.value("run.wall_s"), simulated = run.value("run.simulated_s");
-    out += row("wall time", wall ? duration(*wall) : not_available) + row("simulated time", quantity(simulated, "s"));
-    out += row("wall time per simulated second",
-               wall && simulated && *simulated > 0 ? duration(*wall / *simulated) : not_available);
-    out += row("steps of the granules", run.value("run.steps") ? whole(*run.value("run.steps")) : not_available) +
-           row("ranks", run.value("run.ranks") ? whole(*run.value("run.ranks")) : not_available);
-    return section("performance", "Computing time", out + "</tbody></table>");
-}
-
-std::string warnings_section(RunFolder const& run)
-{
-    std::string out;
-    for (auto const& warning : run.warnings) out += fmt::format("<li>{}</li>", escape(warning));
-    for (auto const& missing : run.missing) out += fmt::format("<li>Not in this report: {}</li>", escape(missing));
-    return section("warnings", "Warnings", out.empty() ? "<p>None.</p>" : "<ul>" + out + "</ul>");
-}
-
-std::string case_section(RunFolder const& run)
-{
-    if (run.resolved_case.empty()) return section("case", "The case", "<p>The resolved case is not available.</p>");
-    return section(
-        "case", "The case",
-        fmt::format("<details><summary>Every value that was used, defaults included</summary><pre>{}</pre></details>",
-                    escape(run.resolved_case)));
 }
 }

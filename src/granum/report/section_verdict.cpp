@@ -149,14 +149,29 @@ char const* style(Light light)
 //! The verdict over all ledgers, in one clause.
 std::string ledger_verdict(std::vector<Check> const& all)
 {
-    int closed = 0, open = 0, unknown = 0;
+    int closed = 0, nearly = 0, broken = 0, unknown = 0;
     for (auto const& check : all) {
         if (!check.name.ends_with("ledger")) continue;
-        (check.light == Light::good ? closed : check.light == Light::unknown ? unknown : open)++;
+        switch (check.light) {
+            case Light::good:
+                ++closed;
+                break;
+            case Light::watch:
+                ++nearly;
+                break;
+            case Light::bad:
+                ++broken;
+                break;
+            case Light::unknown:
+                ++unknown;
+                break;
+        }
     }
-    if (open > 0)
-        return fmt::format("{} of {} ledgers not closed: do not use these results before that is understood", open,
-                           open + closed + unknown);
+    int const known = closed + nearly + broken;
+    if (broken > 0)
+        return fmt::format("{} of {} ledgers not closed: do not use these results before that is understood",
+                           broken + nearly, known);
+    if (nearly > 0) return fmt::format("{} of {} ledgers not closed within its bar, see the checks", nearly, known);
     if (closed == 0) return "the ledgers are not available";
     return unknown > 0 ? "the ledgers that are available are closed"
                        : "the ledgers of solids, water and energy are closed";

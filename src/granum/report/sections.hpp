@@ -21,6 +21,8 @@ std::string case_section(RunFolder const& run);
 
 //! A figure with its sentence; the sentence alone, with "no data yet", where `drawing` is empty.
 std::string figure(std::string const& drawing, std::string const& caption);
+//! A table row of a name and a value, both escaped here.
+std::string row(std::string const& name, std::string const& value);
 //! <section id=...> with its heading.
 std::string section(std::string const& id, std::string const& heading, std::string const& body);
 }

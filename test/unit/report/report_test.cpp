@@ -75,6 +75,17 @@ TEST(Report, says_which_ledger_is_not_closed)
     EXPECT_EQ(count(page, "<span class=\"light good\">"), 6u);
 }
 
+TEST(Report, forbids_the_use_of_a_run_that_loses_water)
+{
+    scene::TemporaryFolder folder;
+    auto summary = scene::run_summary(small);
+    summary["ledger"]["water"]["relative_error"] = -1e-3;
+    io::replace_text(folder / "summary.json", summary.dump());
+    auto const page = page_of(folder.path());
+    EXPECT_TRUE(holds(page, "2 of 3 ledgers not closed: do not use these results"));
+    EXPECT_EQ(count(page, "<span class=\"light bad\">"), 1u);
+}
+
 TEST(Report, warns_of_an_unvalidated_map_until_the_summary_says_otherwise)
 {
     scene::TemporaryFolder folder;
@@ -125,6 +136,8 @@ TEST(Report, is_made_when_any_one_file_is_missing_or_broken)
         for (bool const broken : {false, true}) {
             scene::TemporaryFolder folder;
             scene::write_run_folder(folder.path(), small);
+            if (file != std::string("snapshots.h5"))
+                std::filesystem::remove(folder / "snapshots.h5");  // drawing takes time
             if (broken)
                 io::replace_text(folder / file, "{\"spray\": [1, \"two");
             else
