@@ -40,7 +40,7 @@ struct Settings
     Vec3 gravity{0, 0, -9.81};
     std::optional<double> density, viscosity;                          //!< constant instead of moist air
     double ambient_temperature = 293.15, ambient_vapour_fraction = 0;  //!< of gas drawn in through the outlet
-    double tolerance = 1e-8;  //!< of the pressure solve, relative to the first residual
+    double tolerance = 1e-6;  //!< of the pressure solve, relative to its right side
 };
 
 //! Conserved and derived state. Every field has ghosts.

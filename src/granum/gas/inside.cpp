@@ -104,7 +104,10 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells, par::Communicato
             }
 
     for (std::size_t d = 0; d < 3; ++d) momentum_rows[d].resize(faces[d].size());
-    cell_rows.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
+    grid::for_each_cell(grid, [&](int, int, int, Index c) {
+        if (grid.open(c)) open_cells.push_back(c);
+    });
+    cell_rows.resize(open_cells.size());
     carried = {.content = grid.make_field(),
                .capacity = grid.make_field(),
                .flux = grid.make_face_field(),
@@ -134,24 +137,6 @@ double Solver::Inside::equation_of_state(double at_pressure, double temperature,
 double Solver::Inside::inlet_flux(Index face) const
 {
     return settings.inlet->mass_flow * area[2][face] / plate_area;
-}
-
-double Solver::Inside::face_mass(FaceRow const& row, std::size_t d, Field const& mass) const
-{
-    return 0.5 * (mass[before(row.face, d)] + (row.outlet ? 0 : mass[row.face]));
-}
-
-double Solver::Inside::face_gas_volume(FaceRow const& row, std::size_t d, Field const& voidage) const
-{
-    Index const low = before(row.face, d);
-    double const below = voidage[low] * grid.open_volume[low];
-    return 0.5 * (below + (row.outlet ? 0 : voidage[row.face] * grid.open_volume[row.face]));
-}
-
-double Solver::Inside::pressure_slope(FaceRow const& row, std::size_t d, Field const& p) const
-{
-    double const low = p[before(row.face, d)];
-    return row.outlet ? -low / (0.5 * grid.spacing[d]) : (p[row.face] - low) / grid.spacing[d];
 }
 
 std::array<double, 6> Solver::Inside::viscous_reach(FaceRow const& row, std::size_t d) const

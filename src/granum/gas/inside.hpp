@@ -20,11 +20,11 @@ struct FaceRow
     bool on_plate;  //!< its lowest edge lies on an open plate
 };
 
-//! One row of a seven-point system: centre x - sum of beside x_neighbour = right. Neighbours by direction: lower,
-//! upper.
+//! One row of a seven-point system: centre x - sum of beside x_neighbour = right; `inverse` of centre for the sweeps.
+//! Neighbours by direction: lower, upper.
 struct Row
 {
-    double centre, right;
+    double centre, inverse, right;
     std::array<double, 6> beside;
 };
 
@@ -62,6 +62,7 @@ struct Solver::Inside
     FaceField shear;        //!< wall area over wall distance in the control volume, m
     FaceWeights weights;
     std::array<std::vector<FaceRow>, 3> faces;
+    std::vector<Index> open_cells;  //!< owned, x fastest
 
     solve::Pressure pressure;
     solve::System system;
@@ -82,11 +83,25 @@ struct Solver::Inside
     double viscosity(double temperature) const;
     double equation_of_state(double pressure, double temperature, double vapour_fraction) const;
     double inlet_flux(Index face) const;  //!< kg/s through a plate face
-    //! Mass of the momentum control volume, kg; and its gas volume eps V, m3.
-    double face_mass(FaceRow const& row, std::size_t d, Field const& mass) const;
-    double face_gas_volume(FaceRow const& row, std::size_t d, Field const& voidage) const;
+
+    //! Mass of the momentum control volume, kg.
+    double face_mass(FaceRow const& row, std::size_t d, Field const& mass) const
+    {
+        return 0.5 * (mass[before(row.face, d)] + (row.outlet ? 0 : mass[row.face]));
+    }
+    //! Its gas volume eps V, m3.
+    double face_gas_volume(FaceRow const& row, std::size_t d, Field const& voidage) const
+    {
+        Index const low = before(row.face, d);
+        double const below = voidage[low] * grid.open_volume[low];
+        return 0.5 * (below + (row.outlet ? 0 : voidage[row.face] * grid.open_volume[row.face]));
+    }
     //! grad p at a face, Pa/m.
-    double pressure_slope(FaceRow const& row, std::size_t d, Field const& pressure) const;
+    double pressure_slope(FaceRow const& row, std::size_t d, Field const& p) const
+    {
+        double const low = p[before(row.face, d)];
+        return row.outlet ? -low / (0.5 * grid.spacing[d]) : (p[row.face] - low) / grid.spacing[d];
+    }
     //! Viscous conductance between a face and its neighbours, without voidage and viscosity, m.
     std::array<double, 6> viscous_reach(FaceRow const& row, std::size_t d) const;
 

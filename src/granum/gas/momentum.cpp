@@ -86,6 +86,7 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
             // Parts that act on the face alone: at rest at walls, plate gas and sources.
             double const alone = inflow + eps * mu * shear[d][q];
             row.centre = mobility[d][q] + alone + sum;
+            row.inverse = 1 / row.centre;
         }
 
     std::array<std::ptrdiff_t, 6> offset{};
@@ -95,13 +96,14 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
         for (std::size_t m = 0; m < 6; ++m) sum += row.beside[m] * at[offset[m]];
         return sum;
     };
+    double scale = 0;  // largest speed of all ranks, from the first sweep
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         double change = 0, speed = 0;
         for (std::size_t d = 0; d < 3; ++d) {
             auto step = [&](std::size_t r) {
                 Row const& row = momentum_rows[d][r];
                 double* at = u[d].data() + faces[d][r].face;
-                double const value = (row.right + neighbours(row, at)) / row.centre;
+                double const value = (row.right + neighbours(row, at)) * row.inverse;
                 change = std::max(change, std::abs(value - *at));
                 speed = std::max(speed, std::abs(value));
                 *at = value;
@@ -113,9 +115,9 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
                 for (std::size_t r = count; r-- > 0;) step(r);
         }
         refresh({&u[0], &u[1], &u[2]});
-        std::array<double, 2> worst{change, speed};
-        if (comm.size() > 1) worst = {comm.max(change), comm.max(speed)};
-        if (worst[0] <= sweep_tolerance * worst[1]) break;
+        if (sweep == 0) scale = comm.size() > 1 ? comm.max(speed) : speed;
+        if (comm.size() > 1) change = comm.max(change);
+        if (change <= sweep_tolerance * scale) break;
     }
 
     // Once more with the exchange between control volumes taken from the converged values on both sides.

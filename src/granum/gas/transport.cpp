@@ -24,11 +24,9 @@ void Solver::Inside::carry(Carried& what, Field& x, double dt)
             if (plate) x[grid.at(i, j, -1)] = what.at_plate;
             if (top) x[grid.at(i, j, grid.n[2])] = what.at_top;
         }
-    std::size_t r = 0;
-    grid::for_each_cell(grid, [&](int, int, int, Index c) {
-        Row& row = cell_rows[r++];
-        row = {.centre = 1, .right = x[c], .beside = {}};
-        if (!grid.open(c)) return;
+    for (std::size_t r = 0; r < open_cells.size(); ++r) {
+        Row& row = cell_rows[r];
+        Index const c = open_cells[r];
         row.centre = what.capacity[c] / dt + what.sink[c];
         row.right = what.content[c] / dt + what.source[c];
         for (std::size_t d = 0; d < 3; ++d) {
@@ -38,37 +36,33 @@ void Solver::Inside::carry(Carried& what, Field& x, double dt)
             row.beside[2 * d + 1] = std::max(-out, 0.0) + what.conductance[d][up];
             row.centre += std::max(-in, 0.0) + what.conductance[d][c] + std::max(out, 0.0) + what.conductance[d][up];
         }
-    });
+        row.inverse = 1 / row.centre;
+    }
 
     std::array<std::ptrdiff_t, 6> offset{};
     for (std::size_t d = 0; d < 3; ++d) offset[2 * d] = -stride(d), offset[2 * d + 1] = stride(d);
+    double scale = 0;  // largest value of all ranks, from the first sweep
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         double change = 0, largest = 0;
         auto step = [&](Row const& row, Index c) {
             double const* at = x.data() + c;
             double sum = row.right;
             for (std::size_t m = 0; m < 6; ++m) sum += row.beside[m] * at[offset[m]];
-            double const value = sum / row.centre;
+            double const value = sum * row.inverse;
             change = std::max(change, std::abs(value - x[c]));
             largest = std::max(largest, std::abs(value));
             x[c] = value;
         };
         // Along the rise of the gas first, then back.
-        if (sweep % 2 == 0) {
-            r = 0;
-            grid::for_each_cell(grid, [&](int, int, int, Index c) { step(cell_rows[r++], c); });
-        } else {
-            r = cell_rows.size();
-            for (int k = grid.n[2] - 1; k >= 0; --k)
-                for (int j = grid.n[1] - 1; j >= 0; --j)
-                    for (int i = grid.n[0] - 1; i >= 0; --i) step(cell_rows[--r], grid.at(i, j, k));
-        }
+        std::size_t const count = open_cells.size();
+        if (sweep % 2 == 0)
+            for (std::size_t r = 0; r < count; ++r) step(cell_rows[r], open_cells[r]);
+        else
+            for (std::size_t r = count; r-- > 0;) step(cell_rows[r], open_cells[r]);
         refresh({&x});
-        if (comm.size() > 1) {
-            change = comm.max(change);
-            largest = comm.max(largest);
-        }
-        if (change <= sweep_tolerance * largest) break;
+        if (sweep == 0) scale = comm.size() > 1 ? comm.max(largest) : largest;
+        if (comm.size() > 1) change = comm.max(change);
+        if (change <= sweep_tolerance * scale) break;
     }
 
     // What passed each face at the solution; contents change by that and by nothing else.
