@@ -13,7 +13,7 @@ namespace granum::report
 {
 namespace
 {
-constexpr double width = 520, height = 270, left = 66, right = 16, top = 34, bottom = 46;
+constexpr double width = 520, height = 270, left = 70, right = 16, top = 34, bottom = 46;
 
 //! Data range of one direction and its place on the paper.
 struct Scale
@@ -95,7 +95,7 @@ std::string frame(Scale const& x, Scale const& y, std::string const& x_label, st
                        x.to);
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", (x.from + x.to) / 2,
                        height - 8, escape(x_label));
-    out += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+    out += fmt::format("<text transform=\"translate(12 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
                        (y.from + y.to) / 2, escape(y_label));
     return out;
 }

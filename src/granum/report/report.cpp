@@ -31,6 +31,7 @@ p { margin: 8px 0; max-width: 75em; }
 .tile { border: 1px solid #cfd6dc; border-radius: 6px; padding: 10px 12px; display: flex; flex-direction: column; break-inside: avoid; }
 .tile .name { color: #4a545e; font-size: 13px; }
 .tile .value { font-size: 23px; font-weight: 650; line-height: 1.35; }
+.tile .none { color: #4a545e; font-size: 15px; font-weight: 400; padding: 5px 0; }
 .tile .note { color: #4a545e; font-size: 12px; }
 .pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: 18px; align-items: start; }
 .charts { display: grid; grid-template-columns: repeat(2, 1fr); gap: 18px 28px; align-items: start; }

@@ -28,9 +28,9 @@ std::optional<double> celsius(std::optional<double> kelvin)
 std::string tile(std::string const& name, std::string const& value, std::string const& note)
 {
     return fmt::format(
-        "<div class=\"tile\"><span class=\"name\">{}</span><span class=\"value\">{}</span><span "
+        "<div class=\"tile\"><span class=\"name\">{}</span><span class=\"value{}\">{}</span><span "
         "class=\"note\">{}</span></div>",
-        name, escape(value), escape(note));
+        name, value == not_available ? " none" : "", escape(value), escape(note));
 }
 
 enum class Light
