@@ -123,7 +123,8 @@ int run(Wish const& wish)
         std::fflush(nullptr);
         status = launch_ranks(ranks, words);
     }
-    if (status == static_cast<int>(base::Exit::interrupted)) return status;
+    bool const results = fs::exists(folder + "/summary.json");  // not after the second Ctrl-C
+    if (status == static_cast<int>(base::Exit::interrupted) && !results) return status;
     try {
         report(wish, folder);
     } catch (std::exception const& error) {

@@ -40,29 +40,30 @@ struct Store
     Column<Vec3> position{{"position", "m", true, false}};
     Column<Vec3> velocity{{"velocity", "m/s", true, true}};
     Column<Vec3> spin{{"spin", "rad/s", true, true}};
-    Column<double> radius{{"radius", "m", true, true}};       //!< of the parcel in contacts
-    Column<double> mass{{"mass", "kg", true, true}};          //!< of the parcel: core, layer and liquid
+    Column<double> radius{{"radius", "m", true, true}};  //!< of the parcel in contacts
+    Column<double> mass{{"mass", "kg", true, true}};     //!< of the parcel: core, layer and liquid
     Column<std::uint32_t> material{{"material", "1", true, true}};
 
-    Column<Vec3> force{{"force", "N"}};     //!< contacts and gravity, not the gas
+    Column<Vec3> force{{"force", "N"}};  //!< contacts and gravity, not the gas
     Column<Vec3> torque{{"torque", "N m"}};
 
     // What the gas does to the parcel during a coupling interval (set by `coupling`, read by `dem`).
-    Column<Vec3> gas_velocity{{"gas_velocity", "m/s"}};       //!< seen by the parcel
-    Column<double> drag_rate{{"drag_rate", "1/s"}};           //!< drag coefficient over mass: dv/dt = rate (u - v)
-    Column<Vec3> gas_force{{"gas_force", "N"}};               //!< pressure gradient and viscous force, held constant
-    Column<Vec3> drag_impulse{{"drag_impulse", "N s"}};       //!< summed by `dem` over the interval
+    Column<Vec3> gas_velocity{{"gas_velocity", "m/s"}};  //!< seen by the parcel
+    Column<double> drag_rate{{"drag_rate", "1/s"}};      //!< drag coefficient over mass: dv/dt = rate (u - v)
+    Column<Vec3> gas_force{{"gas_force", "N"}};          //!< pressure gradient and viscous force, held constant
+    Column<Vec3> drag_impulse{{"drag_impulse", "N s"}};  //!< summed by `dem` over the interval
 
     // The real granules that the parcel stands for.
     Column<double> count{{"count", "1", true, true}};
-    Column<double> diameter{{"diameter", "m", true, true}};   //!< of one real granule
-    Column<double> core_mass{{"core_mass", "kg"}};            //!< of the parcel
-    Column<double> layer_mass{{"layer_mass", "kg", false, true}};      //!< dried solids of the parcel
-    Column<double> layer_volume{{"layer_volume", "m3"}};      //!< of the dried layer with its pores
-    Column<double> water{{"water", "kg", false, true}};       //!< in open deposits of the parcel
-    Column<double> solute{{"solute", "kg", false, true}};     //!< solids in open deposits
-    Column<double> enthalpy{{"enthalpy", "J"}};               //!< stored state; zero at 0 degC, liquid water
-    Column<double> temperature{{"temperature", "K", false, true}};     //!< follows from the enthalpy
+    Column<double> diameter{{"diameter", "m", true, true}};         //!< of one real granule
+    Column<double> core_mass{{"core_mass", "kg"}};                  //!< of the parcel
+    Column<double> core_diameter{{"core_diameter", "m"}};           //!< of one real granule
+    Column<double> layer_mass{{"layer_mass", "kg", false, true}};   //!< dried solids of the parcel
+    Column<double> layer_volume{{"layer_volume", "m3"}};            //!< of the dried layer with its pores
+    Column<double> water{{"water", "kg", false, true}};             //!< in open deposits of the parcel
+    Column<double> solute{{"solute", "kg", false, true}};           //!< solids in open deposits
+    Column<double> enthalpy{{"enthalpy", "J"}};                     //!< stored state; zero at 0 degC, liquid water
+    Column<double> temperature{{"temperature", "K", false, true}};  //!< follows from the enthalpy
 
     std::size_t owned = 0;
 
@@ -79,7 +80,8 @@ void for_each_column(StoreType& store, Visitor&& visit)
     visit(store.radius), visit(store.mass), visit(store.material);
     visit(store.force), visit(store.torque);
     visit(store.gas_velocity), visit(store.drag_rate), visit(store.gas_force), visit(store.drag_impulse);
-    visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.layer_mass);
+    visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.core_diameter),
+        visit(store.layer_mass);
     visit(store.layer_volume), visit(store.water), visit(store.solute), visit(store.enthalpy);
     visit(store.temperature);
 }

@@ -1,0 +1,137 @@
+#include "granum/drying/drying.hpp"
+
+#include "granum/law/droplet/evaporation.hpp"
+#include "granum/law/wetting/footprint.hpp"
+#include "granum/material/moist_air.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::drying
+{
+namespace air = material;
+
+double Drying::coverage(std::vector<Deposit> const& deposits, double count, double diameter)
+{
+    double area = 0;
+    for (auto const& deposit : deposits) area += deposit.weight * math::pi * deposit.base_radius * deposit.base_radius;
+    return std::min(1.0, area / (count * math::pi * diameter * diameter));
+}
+
+double Drying::cap_rate(Deposit const& deposit, law::deposit::Film film, double saturation) const
+{
+    Liquid const& liquid = settings_.liquid;
+    double const moisture = deposit.water / deposit.solute;
+    double const activity =
+        law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation);
+    film.surface_fraction = law::vapour::mass_fraction(activity * saturation);
+    // The contact line is pinned: the cap flattens as it loses volume.
+    double const volume =
+        (deposit.water / air::water_density + deposit.solute / liquid.solids_density) / deposit.weight;
+    double const angle = law::wetting::pinned_angle(volume, deposit.base_radius);
+    return law::deposit::cap_rate(deposit.base_radius, angle, film) *
+           law::deposit::falling_rate(moisture, settings_.critical_moisture);
+}
+
+void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
+                     std::vector<double>& evaporated, std::vector<Event>& events) const
+{
+    Liquid const& liquid = settings_.liquid;
+    evaporated.assign(granules.owned, 0.0);
+    std::vector<double> caps;
+    for (std::size_t row = 0; row < granules.owned; ++row) {
+        auto& open = deposits.on(granules.id[row]);
+        if (open.empty()) continue;
+        double const temperature = granules.temperature[row], diameter = granules.diameter[row];
+        double const count = granules.count[row];
+        double const saturation = air::saturation_pressure(temperature) / settings_.pressure;
+        law::deposit::Film const film =
+            law::deposit::film(temperature, 1.0, seen.temperature[row], seen.vapour_fraction[row], settings_.pressure);
+
+        caps.clear();
+        double sum = 0;
+        for (auto const& deposit : open) {
+            caps.push_back(cap_rate(deposit, film, saturation));
+            sum += deposit.weight * caps.back();
+        }
+        double const full =
+            law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
+        double lost = 0, dried_solids = 0, dried_volume = 0;
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < open.size(); ++k) {
+            Deposit& deposit = open[k];
+            double const foot = math::pi * deposit.base_radius * deposit.base_radius;
+            double const layer = law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, foot, film);
+            double const rate =
+                std::visit([&](auto const& law) { return law(caps[k], sum / count, layer, full); }, settings_.combine);
+            double const dry = settings_.end_moisture * liquid.feed_moisture * deposit.solute;
+            double const leaving = deposit.weight * rate * dt;
+            double fraction = 1;  // of the step until the deposit is dry
+            double gone = leaving;
+            bool const ends = deposit.water - leaving <= dry;
+            if (ends) {
+                fraction = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 0.0, 1.0) : 1;
+                gone = deposit.water;
+            }
+            double const moisture = deposit.water / deposit.solute;
+            double const h = fraction * dt;
+            deposit.time += h;
+            deposit.gas_temperature += h * seen.temperature[row];
+            deposit.gas_humidity += h * air::loading(seen.vapour_fraction[row]);
+            deposit.drying_potential += h * seen.drying_potential[row];
+            deposit.granule_temperature += h * temperature;
+            deposit.slip += h * seen.slip[row];
+            deposit.record.max_flux = std::max(deposit.record.max_flux, rate / foot);
+            if (liquid.solubility > 0 && moisture * liquid.solubility > 1) deposit.record.constant_rate_time += h;
+            deposit.water -= gone;
+            lost += gone;
+            if (!ends) {
+                if (kept != k) open[kept] = deposit;
+                ++kept;
+                continue;
+            }
+            Event event = deposit.record;
+            double const time = std::max(deposit.time, 1e-12);
+            event.granule = static_cast<double>(granules.id[row]);
+            event.t_dry_end = now - dt + h;
+            event.solids = deposit.solute;
+            event.weight = deposit.weight;
+            event.drying_time = deposit.time;
+            event.mean_gas_temperature = deposit.gas_temperature / time;
+            event.mean_gas_humidity = deposit.gas_humidity / time;
+            event.mean_drying_potential = deposit.drying_potential / time;
+            event.mean_granule_temperature = deposit.granule_temperature / time;
+            event.mean_slip = deposit.slip / time;
+            event.mean_flux = deposit.water_at_impact / (deposit.weight * foot * time);
+            event.porosity =
+                settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
+            dried_solids += deposit.solute;
+            dried_volume += deposit.solute / (liquid.solids_density * (1 - event.porosity));
+            events.push_back(event);
+        }
+        open.resize(kept);
+        evaporated[row] = lost;
+        granules.water[row] -= lost;
+        if (open.empty() && std::abs(granules.water[row]) < 1e-15 * granules.core_mass[row]) {
+            // Only rounding is left; it stays in the ledger as evaporated.
+            evaporated[row] += granules.water[row];
+            granules.water[row] = 0;
+        }
+        granules.enthalpy[row] -= evaporated[row] * air::vapour_enthalpy(temperature);
+        granules.solute[row] -= dried_solids;
+        granules.layer_mass[row] += dried_solids;
+        granules.layer_volume[row] += dried_volume;
+        resize_granule(granules, row);
+    }
+}
+
+void resize_granule(particle::Store& granules, std::size_t row)
+{
+    granules.mass[row] =
+        granules.core_mass[row] + granules.layer_mass[row] + granules.water[row] + granules.solute[row];
+    double const count = granules.count[row];
+    double const core = granules.core_diameter[row];
+    granules.diameter[row] = std::cbrt(core * core * core + 6 * granules.layer_volume[row] / (math::pi * count));
+    granules.radius[row] = 0.5 * granules.diameter[row] * std::cbrt(count);
+}
+}

@@ -1,0 +1,71 @@
+// Drying of the deposits on each granule, their solids joining the layer, and the events that say how it went.
+//
+// Every cap on a granule has the granule's temperature. Its evaporation lies between that of an isolated cap and its
+// share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2). A deposit is dry when its
+// moisture has fallen to `end_moisture` of the feed's; the trace left then evaporates in the same step.
+#pragma once
+
+#include "granum/drying/deposits.hpp"
+#include "granum/law/deposit/all.hpp"
+#include "granum/law/deposit/rates.hpp"
+#include "granum/particle/store.hpp"
+
+#include <functional>
+#include <span>
+
+namespace granum::drying
+{
+//! The liquid as it dries.
+struct Liquid
+{
+    double density = 1000;         //!< of the feed, kg/m3
+    double solids_density = 1440;  //!< without pores, kg/m3
+    double solubility = 0;         //!< kg solids per kg water; 0: a suspension
+    double molar_mass = 0.1;       //!< of the solute, kg/mol
+    double dissociation = 1;
+    double feed_moisture = 1;  //!< kg water per kg solids
+};
+
+struct Settings
+{
+    law::deposit::Any combine;
+    Liquid liquid;
+    double critical_moisture = 0;  //!< kg/kg; falling rate below, 0: none
+    double end_moisture = 0.01;    //!< of the feed's moisture
+    double pressure = 101325;      //!< Pa
+    //! Layer porosity of an element that met (mean local drying potential, drying time, moisture at impact).
+    std::function<double(double, double, double)> porosity;
+};
+
+//! What the granules see, row by row, during the step.
+struct Surroundings
+{
+    std::span<double const> temperature, vapour_fraction, drying_potential, slip, sherwood;
+};
+
+class Drying
+{
+  public:
+    explicit Drying(Settings settings) : settings_(std::move(settings)) {}
+
+    //! Evaporates for `dt` ending at time `now`. `evaporated` (kg per row) is overwritten; the granules' water, solute,
+    //! layer and enthalpy change (vapour leaves with its enthalpy). Dried deposits are appended to `events`.
+    void advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
+                 std::vector<double>& evaporated, std::vector<Event>& events) const;
+
+    //! Wet fraction of the surface of a real granule under these deposits, at most 1.
+    static double coverage(std::vector<Deposit> const& deposits, double count, double diameter);
+
+    //! kg/s that one cap loses if alone on its granule, flattened by what it has lost. `saturation`: p_s / p at its
+    //! temperature.
+    double cap_rate(Deposit const& deposit, law::deposit::Film film, double saturation) const;
+
+    Settings const& settings() const { return settings_; }
+
+  private:
+    Settings settings_;
+};
+
+//! Diameter of the real granules and radius, mass of the parcel after a change of core, layer or liquid.
+void resize_granule(particle::Store& granules, std::size_t row);
+}

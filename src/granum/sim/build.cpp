@@ -1,0 +1,233 @@
+#include "granum/sim/build.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/material/moist_air.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::sim
+{
+namespace
+{
+//! The law called `name`; the case reader has checked the name, so a miss is a defect of ours.
+template <class List>
+typename List::Any named(std::string const& name)
+{
+    auto law = List::make(name);
+    base::require(law.has_value(), "there is no law called \"{}\"", name);
+    return *law;
+}
+
+std::vector<geometry::Wall> walls(Case const& data)
+{
+    auto const& chamber = data.chamber;
+    double const height = chamber.height();
+    std::vector<geometry::Wall> out;
+    auto const plane = [&](Vec3 point, Vec3 normal) { out.push_back({geometry::Plane{point, normal}, 1}); };
+    if (!data.periodic[2]) {
+        plane({0, 0, 0}, {0, 0, 1});
+        plane({0, 0, height}, {0, 0, -1});  // the filter
+    }
+    if (chamber.shape == geometry::Chamber::Shape::box) {
+        if (!data.periodic[0]) plane({0, 0, 0}, {1, 0, 0}), plane({chamber.size.x, 0, 0}, {-1, 0, 0});
+        if (!data.periodic[1]) plane({0, 0, 0}, {0, 1, 0}), plane({0, chamber.size.y, 0}, {0, -1, 0});
+    } else {
+        for (std::size_t p = 0; p + 1 < chamber.profile.size(); ++p)
+            out.push_back({geometry::ConeWall{chamber.profile[p].height, chamber.profile[p].radius,
+                                              chamber.profile[p + 1].height, chamber.profile[p + 1].radius},
+                           1});
+    }
+    return out;
+}
+
+//! A speed at which granules are expected to meet, m/s: it enters the Hertz contact time with the power -1/5 only.
+double collision_speed(Case const& data)
+{
+    double fastest = 1.0;
+    if (data.gas.present && !data.gas.closed) {
+        double const flow = dry_inlet_flow(data) * (1 + data.gas.inlet.humidity);
+        double const density = data.gas.density ? *data.gas.density
+                                                : material::density(data.gas.pressure, data.gas.inlet.temperature,
+                                                                    material::fraction(data.gas.inlet.humidity));
+        fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
+    }
+    for (auto const& granule : data.granules.given) fastest = std::max(fastest, math::norm(granule.velocity));
+    return fastest;
+}
+}
+
+dem::Settings granule_settings(Case const& data)
+{
+    dem::Settings settings;
+    auto const& contact = data.contact;
+    dem::Laws& laws = settings.laws;
+    laws.normal = named<law::contact::NormalLaws>(contact.normal);
+    laws.tangential = named<law::contact::TangentialLaws>(contact.tangential);
+    laws.rolling = named<law::contact::RollingLaws>(contact.rolling);
+    std::visit(
+        [&](auto& law) {
+            if constexpr (requires { law.attraction; })
+                law.attraction =
+                    contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
+        },
+        laws.normal);
+    laws.lever = contact.lever_radius ? dem::Lever::radius : dem::Lever::contact_point;
+    auto const granule = laws.add({contact.granule.youngs_modulus, contact.granule.poisson_ratio, false});
+    auto const wall = laws.add({contact.wall.youngs_modulus, contact.wall.poisson_ratio, contact.rigid_wall});
+    auto const pair = [](ContactPair const& p) {
+        return dem::PairProperties{p.restitution, p.sliding_friction, p.rolling_friction};
+    };
+    laws.pair(granule, granule, pair(contact.granule_granule));
+    laws.pair(granule, wall, pair(contact.granule_wall));
+    settings.walls = walls(data);
+    settings.lower = data.chamber.lower();
+    settings.upper = data.chamber.upper();
+    settings.periodic = data.periodic;
+    settings.gravity = data.gravity;
+    settings.frozen = data.granules.frozen;
+    return settings;
+}
+
+gas::Settings gas_settings(Case const& data)
+{
+    gas::Settings settings;
+    auto const& inlet = data.gas.inlet;
+    if (!data.gas.closed)
+        settings.inlet = gas::Inlet{.mass_flow = dry_inlet_flow(data) * (1 + inlet.humidity),
+                                    .temperature = inlet.temperature,
+                                    .vapour_fraction = material::fraction(inlet.humidity)};
+    settings.outlet = !data.gas.closed;
+    settings.pressure = data.gas.pressure;
+    settings.gravity = data.gravity;
+    settings.density = data.gas.density;
+    settings.viscosity = data.gas.viscosity;
+    settings.ambient_temperature = inlet.temperature;
+    settings.ambient_vapour_fraction = material::fraction(inlet.humidity);
+    return settings;
+}
+
+coupling::Laws exchange_laws(Case const& data)
+{
+    return {named<law::drag::All>(data.gas.drag), named<law::heat::All>(data.gas.heat_transfer)};
+}
+
+spray::Liquid spray_liquid(Case const& data)
+{
+    auto const& s = data.spray;
+    return {.density = s.density,
+            .viscosity = s.viscosity,
+            .surface_tension = s.surface_tension,
+            .solids_density = s.solids_density,
+            .solids_fraction = s.solids_fraction,
+            .solids_heat_capacity = data.granules.heat_capacity,
+            .solubility = s.solubility,
+            .molar_mass = s.molar_mass,
+            .dissociation = s.dissociation,
+            .contact_angle = s.contact_angle};
+}
+
+std::vector<spray::Nozzle> nozzles(Case const& data)
+{
+    std::vector<spray::Nozzle> out;
+    auto const& s = data.spray;
+    double const share = s.nozzles.empty() ? 0 : 1.0 / static_cast<double>(s.nozzles.size());
+    for (auto const& n : s.nozzles)
+        out.push_back({.position = n.position,
+                       .direction = n.direction,
+                       .half_angle = n.half_angle,
+                       .air_mass_flow = n.air_mass_flow * (1 + n.air_humidity),
+                       .air_temperature = n.air_temperature,
+                       .air_vapour_fraction = material::fraction(n.air_humidity),
+                       .air_velocity = n.air_velocity,
+                       .droplet_velocity = n.droplet_velocity,
+                       .droplet_temperature = s.temperature,
+                       .rate = s.rate * share,
+                       .median = s.droplet_median,
+                       .spread = s.droplet_spread,
+                       .parcels_per_second = s.parcels_per_second * share});
+    return out;
+}
+
+spray::FlightSettings flight_settings(Case const& data)
+{
+    auto const number = cells(data);
+    Vec3 const size = data.chamber.upper() - data.chamber.lower();
+    double const cell = std::min({size.x / number[0], size.y / number[1], size.z / number[2]});
+    return {.liquid = spray_liquid(data),
+            .capture = law::capture::Loeffler{},
+            .gravity = data.gravity,
+            .pressure = data.gas.pressure,
+            .end_moisture = data.drying.end_moisture,
+            .longest_hop = 0.25 * cell,
+            .seed = data.seed};
+}
+
+product::Any porosity_model(Case const& data)
+{
+    auto model = named<product::All>(data.product.porosity_model);
+    std::visit(
+        [&](auto& law) {
+            if constexpr (requires { law.slope; }) {
+                law.zero = data.product.porosity_at_zero;
+                law.slope = data.product.porosity_slope;
+                law.band = law.common = data.product.porosity_band;
+            }
+        },
+        model);
+    return model;
+}
+
+drying::Settings drying_settings(Case const& data)
+{
+    auto const& s = data.spray;
+    drying::Settings settings;
+    settings.combine = named<law::deposit::All>(data.drying.deposit);
+    settings.liquid = {.density = s.density,
+                       .solids_density = s.solids_density,
+                       .solubility = s.solubility,
+                       .molar_mass = s.molar_mass,
+                       .dissociation = s.dissociation,
+                       .feed_moisture = spray_liquid(data).feed_moisture()};
+    settings.critical_moisture = data.drying.critical_moisture;
+    settings.end_moisture = data.drying.end_moisture;
+    settings.pressure = data.gas.pressure;
+    settings.porosity = [model = porosity_model(data)](double potential, double time, double moisture) {
+        return std::visit([&](auto const& law) { return law({potential, time, moisture}).mean; }, model);
+    };
+    return settings;
+}
+
+double largest_radius(Case const& data)
+{
+    double largest = data.granules.mass > 0 ? 0.5 * data.granules.diameter * data.granules.parcel_ratio : 0;
+    for (auto const& granule : data.granules.given) largest = std::max(largest, 0.5 * granule.diameter);
+    return largest;
+}
+
+double granule_step(Case const& data)
+{
+    if (data.time.granule_step) return *data.time.granule_step;
+    auto const settings = granule_settings(data);
+    double const speed = collision_speed(data);
+    double least = data.time.duration;
+    auto const consider = [&](double radius, double density) {
+        for (auto const& bound : dem::step_bounds(settings, radius, density, speed))
+            least = std::min(least, bound.seconds);
+    };
+    if (data.granules.mass > 0)
+        consider(0.5 * data.granules.diameter * data.granules.parcel_ratio, data.granules.density);
+    for (auto const& granule : data.granules.given)
+        consider(0.5 * granule.diameter, granule.density > 0 ? granule.density : data.granules.density);
+    return least;
+}
+
+std::array<int, 3> cells(Case const& data)
+{
+    if (data.gas.present) return data.gas.cells;
+    // Without gas the cells only cut the domain among ranks: about two diameters wide.
+    Vec3 const size = data.chamber.upper() - data.chamber.lower();
+    double const wide = std::max(4 * largest_radius(data), 1e-9);
+    return {std::clamp(static_cast<int>(size.x / wide), 1, 1000), 1, 1};
+}
+}

@@ -1,0 +1,37 @@
+// From the resolved case to the settings of the rooms.
+#pragma once
+
+#include "granum/coupling/exchange.hpp"
+#include "granum/dem/engine.hpp"
+#include "granum/drying/drying.hpp"
+#include "granum/gas/flow.hpp"
+#include "granum/product/all.hpp"
+#include "granum/sim/balance.hpp"
+#include "granum/sim/case.hpp"
+#include "granum/spray/flight.hpp"
+#include "granum/spray/nozzle.hpp"
+
+namespace granum::sim
+{
+//! Contact laws, walls and gravity. Material 0 is the granule, 1 the wall.
+dem::Settings granule_settings(Case const& data);
+
+gas::Settings gas_settings(Case const& data);
+coupling::Laws exchange_laws(Case const& data);
+
+spray::Liquid spray_liquid(Case const& data);
+std::vector<spray::Nozzle> nozzles(Case const& data);
+spray::FlightSettings flight_settings(Case const& data);
+
+product::Any porosity_model(Case const& data);
+drying::Settings drying_settings(Case const& data);
+
+//! Radius of a parcel, m, and of the largest granule given by hand.
+double largest_radius(Case const& data);
+
+//! The step that `granum run` takes if the case names none: the least of the bounds; `speed` (m/s) is a typical speed.
+double granule_step(Case const& data);
+
+//! Cells along the three directions: those of the gas, or for a run without gas enough for the ranks along x.
+std::array<int, 3> cells(Case const& data);
+}

@@ -1,0 +1,297 @@
+#include "granum/sim/output.hpp"
+
+#include "granum/sim/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <tuple>
+
+namespace granum::sim
+{
+namespace air = material;
+using grid::Index;
+
+namespace
+{
+//! Rows of any plain struct from all ranks, on rank 0.
+template <class Row>
+std::vector<Row> gathered(par::Communicator const& comm, std::vector<Row> const& mine)
+{
+    auto const bytes = comm.gather(std::as_bytes(std::span(mine)));
+    std::vector<Row> all(bytes.size() / sizeof(Row));
+    if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+    return all;
+}
+
+struct GranuleRow
+{
+    std::uint64_t id;
+    Vec3 position, velocity;
+    double radius, temperature, moisture, diameter, count, layer_mass, porosity;
+};
+
+std::vector<GranuleRow> granule_rows(Simulation& simulation)
+{
+    auto const& g = simulation.granules();
+    double const solids_density = simulation.data().spray.solids_density;
+    std::vector<GranuleRow> rows;
+    for (std::size_t r = 0; r < g.owned; ++r) {
+        double const dry = g.core_mass[r] + g.layer_mass[r] + g.solute[r];
+        double const porosity = g.layer_volume[r] > 0 ? 1 - g.layer_mass[r] / (solids_density * g.layer_volume[r])
+                                                      : std::numeric_limits<double>::quiet_NaN();
+        rows.push_back({g.id[r], g.position[r], g.velocity[r], g.radius[r], g.temperature[r], g.water[r] / dry,
+                        g.diameter[r], g.count[r], g.layer_mass[r], porosity});
+    }
+    rows = gathered(simulation.comm(), rows);
+    std::sort(rows.begin(), rows.end(), [](auto const& a, auto const& b) { return a.id < b.id; });
+    return rows;
+}
+
+struct DropletRow
+{
+    Vec3 position, velocity;
+    double diameter, temperature, moisture;
+};
+
+//! One owned gas cell with its global place.
+struct CellRow
+{
+    int i, j, k;
+    double open, pressure, voidage, temperature, humidity, potential;
+    Vec3 velocity;
+};
+
+std::vector<CellRow> cell_rows(Simulation& simulation)
+{
+    auto const& grid = simulation.grid();
+    auto const& gas = simulation.gas();
+    auto const velocity = simulation.solver().cell_velocity(gas);
+    std::vector<CellRow> rows;
+    grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
+        rows.push_back({i + grid.shift,
+                        j,
+                        k,
+                        grid.open_volume[c] / grid.volume(),
+                        gas.pressure[c],
+                        gas.voidage[c],
+                        gas.temperature[c],
+                        air::loading(gas.vapour_fraction[c]),
+                        simulation.local_drying_potential(gas.temperature[c], gas.vapour_fraction[c]),
+                        {velocity[0][c], velocity[1][c], velocity[2][c]}});
+    });
+    rows = gathered(simulation.comm(), rows);
+    std::sort(rows.begin(), rows.end(),
+              [](auto const& a, auto const& b) { return std::tie(a.k, a.j, a.i) < std::tie(b.k, b.j, b.i); });
+    return rows;
+}
+
+template <class Rows, class Pick>
+io::NamedArray column(std::string name, Rows const& rows, Pick&& pick)
+{
+    io::NamedArray out{.name = std::move(name)};
+    if constexpr (std::is_same_v<std::decay_t<decltype(pick(rows.front()))>, Vec3>) {
+        out.components = 3;
+        for (auto const& row : rows) {
+            Vec3 const v = pick(row);
+            out.values.insert(out.values.end(), {v.x, v.y, v.z});
+        }
+    } else {
+        for (auto const& row : rows) out.values.push_back(pick(row));
+    }
+    return out;
+}
+
+io::GasSlice slice(std::vector<CellRow> const& cells, grid::Grid const& grid, double y)
+{
+    int const j = std::clamp(static_cast<int>((y - grid.origin.y) / grid.spacing.y), 0, grid.global[1] - 1);
+    io::GasSlice out{.nx = grid.global[0],
+                     .nz = grid.global[2],
+                     .x0 = grid.origin.x,
+                     .z0 = grid.origin.z,
+                     .dx = grid.spacing.x,
+                     .dz = grid.spacing.z};
+    for (auto const& cell : cells) {
+        if (cell.j != j) continue;
+        out.speed.push_back(math::norm(cell.velocity));
+        out.temperature.push_back(cell.temperature);
+        out.humidity.push_back(cell.humidity);
+        out.voidage.push_back(cell.voidage);
+        out.drying_potential.push_back(cell.potential);
+        out.open.push_back(cell.open);
+    }
+    return out;
+}
+}
+
+Output::Output(std::string folder, Simulation& simulation)
+    : folder_(std::move(folder)),
+      simulation_(simulation),
+      root_(simulation.comm().root()),
+      granules_(folder_ + "/granules.pvd"),
+      droplets_(folder_ + "/droplets.pvd"),
+      gas_(folder_ + "/gas.pvd"),
+      layers_(static_cast<std::size_t>(simulation.data().granules.parcels)),
+      model_(porosity_model(simulation.data()))
+{
+    if (!root_) return;
+    std::filesystem::create_directories(folder_ + "/vtk");
+    std::vector<io::SeriesColumn> const columns{{"time", "s"},
+                                                {"bed_temperature", "K"},
+                                                {"outlet_temperature", "K"},
+                                                {"outlet_humidity", "kg/kg"},
+                                                {"drying_potential", "1"},
+                                                {"pressure_drop", "Pa"},
+                                                {"weight_over_area", "Pa"},
+                                                {"bed_height", "m"},
+                                                {"bed_moisture", "kg/kg"},
+                                                {"water_on_granules", "kg"},
+                                                {"sprayed_solids", "kg"},
+                                                {"sprayed_water", "kg"},
+                                                {"evaporated_water", "kg"},
+                                                {"deposited_solids", "kg"},
+                                                {"wall_solids", "kg"},
+                                                {"overspray_solids", "kg"},
+                                                {"in_flight_solids", "kg"},
+                                                {"coldest", "K"},
+                                                {"hottest", "K"},
+                                                {"kinetic_energy", "J"}};
+    series_ = std::make_unique<io::SeriesWriter>(folder_ + "/timeseries.csv", columns);
+    std::vector<io::EventColumn> event_columns;
+    for (auto const& c : drying::event_columns)
+        event_columns.push_back({std::string(c.name), std::string(c.unit), std::string(c.doc)});
+    if (simulation.data().spray.present)
+        events_ = std::make_unique<io::EventsWriter>(folder_ + "/events.h5", event_columns);
+    io::write_surface(folder_ + "/vtk/walls.vtp", io::chamber_surface(simulation.data().chamber));
+    io::Collection(folder_ + "/walls.pvd").add(0, "vtk/walls.vtp");
+}
+
+void Output::sample()
+{
+    Sample const s{simulation_.time(), simulation_.readings(), simulation_.totals()};
+    if (!root_) return;
+    samples_.push_back(s);
+    auto const& r = s.readings;
+    auto const& t = s.totals;
+    double const row[] = {s.time,
+                          r.bed_temperature,
+                          r.outlet_temperature,
+                          r.outlet_humidity,
+                          r.eta,
+                          r.pressure_drop,
+                          r.weight_over_area,
+                          r.height,
+                          r.bed_moisture,
+                          r.water_on_granules,
+                          t.solids,
+                          t.water,
+                          t.evaporated,
+                          t.deposited,
+                          t.walls,
+                          t.overspray,
+                          t.in_flight,
+                          r.coldest,
+                          r.hottest,
+                          r.kinetic_energy};
+    series_->append(row);
+}
+
+void Output::events()
+{
+    auto const fresh = simulation_.take_events();
+    if (!root_ || !events_) return;
+    for (auto const& event : fresh) {
+        if (event.initial > 0) continue;
+        ++event_count_;
+        auto const prediction = std::visit(
+            [&](auto const& law) {
+                return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});
+            },
+            model_);
+        layers_[static_cast<std::size_t>(event.granule)].add(event.solids, prediction);
+    }
+    static_assert(sizeof(drying::Event) % sizeof(double) == 0);
+    events_->append(
+        {reinterpret_cast<double const*>(fresh.data()), fresh.size() * sizeof(drying::Event) / sizeof(double)});
+    events_->flush();
+}
+
+void Output::picture()
+{
+    auto const granules = granule_rows(simulation_);
+    std::vector<DropletRow> droplets;
+    for (auto const& d : simulation_.droplets())
+        droplets.push_back(
+            {d.position, d.velocity, d.diameter(spray_liquid(simulation_.data())), d.temperature, d.water / d.solute});
+    droplets = gathered(simulation_.comm(), droplets);
+    std::vector<CellRow> cells;
+    if (simulation_.has_gas()) cells = cell_rows(simulation_);
+    if (!root_) return;
+
+    double const time = simulation_.time();
+    auto const name = [this](char const* kind, char const* ending) {
+        return fmt::format("vtk/{}_{:06d}.{}", kind, pictures_, ending);
+    };
+    std::vector<Vec3> places;
+    for (auto const& row : granules) places.push_back(row.position);
+    io::write_points(folder_ + "/" + name("granules", "vtp"), places,
+                     {column("id", granules, [](auto const& r) { return static_cast<double>(r.id); }),
+                      column("radius [m]", granules, [](auto const& r) { return r.radius; }),
+                      column("velocity [m/s]", granules, [](auto const& r) { return r.velocity; }),
+                      column("temperature [K]", granules, [](auto const& r) { return r.temperature; }),
+                      column("moisture [kg/kg]", granules, [](auto const& r) { return r.moisture; }),
+                      column("diameter [m]", granules, [](auto const& r) { return r.diameter; }),
+                      column("layer mass [kg]", granules, [](auto const& r) { return r.layer_mass; })});
+    granules_.add(time, name("granules", "vtp"));
+    io::Snapshot snapshot;
+    snapshot.time = time;
+    snapshot.mid_plane = io::mid_plane(simulation_.data().chamber);
+    snapshot.outline = io::mid_plane_outline(simulation_.data().chamber);
+    for (auto const& nozzle : simulation_.data().spray.nozzles) snapshot.nozzles.push_back(nozzle.position);
+    auto& view = snapshot.granules;
+    view.position = places;
+    for (auto const& row : granules) {
+        view.radius.push_back(row.radius);
+        view.temperature.push_back(row.temperature);
+        view.moisture.push_back(row.moisture);
+        view.diameter.push_back(row.diameter);
+        view.count.push_back(row.count);
+        view.porosity.push_back(row.porosity);
+        view.layer_mass.push_back(row.layer_mass);
+    }
+    places.clear();
+    for (auto const& row : droplets) {
+        places.push_back(row.position);
+        snapshot.droplets.diameter.push_back(row.diameter);
+    }
+    snapshot.droplets.position = places;
+    if (simulation_.data().spray.present) {
+        io::write_points(folder_ + "/" + name("droplets", "vtp"), places,
+                         {column("velocity [m/s]", droplets, [](auto const& r) { return r.velocity; }),
+                          column("diameter [m]", droplets, [](auto const& r) { return r.diameter; }),
+                          column("temperature [K]", droplets, [](auto const& r) { return r.temperature; }),
+                          column("moisture [kg/kg]", droplets, [](auto const& r) { return r.moisture; })});
+        droplets_.add(time, name("droplets", "vtp"));
+    }
+    if (simulation_.has_gas()) {
+        auto const& grid = simulation_.grid();
+        io::write_cells(folder_ + "/" + name("gas", "vti"), grid.global, grid.origin, grid.spacing,
+                        {column("open", cells, [](auto const& r) { return r.open; }),
+                         column("velocity [m/s]", cells, [](auto const& r) { return r.velocity; }),
+                         column("pressure [Pa]", cells, [](auto const& r) { return r.pressure; }),
+                         column("voidage", cells, [](auto const& r) { return r.voidage; }),
+                         column("temperature [K]", cells, [](auto const& r) { return r.temperature; }),
+                         column("humidity [kg/kg]", cells, [](auto const& r) { return r.humidity; }),
+                         column("drying potential", cells, [](auto const& r) { return r.potential; })});
+        gas_.add(time, name("gas", "vti"));
+        snapshot.gas = slice(cells, grid, snapshot.mid_plane);
+    }
+    io::write_snapshot(folder_ + "/snapshots.h5", snapshot);
+    view_ = std::move(snapshot.granules);
+    ++pictures_;
+}
+}

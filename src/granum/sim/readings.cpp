@@ -1,0 +1,111 @@
+// What the instruments of the plant would show, from the state of all ranks.
+#include "granum/sim/build.hpp"
+#include "granum/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::sim
+{
+namespace air = material;
+using grid::Index;
+
+SprayTotals Simulation::totals() const
+{
+    SprayTotals all = mine_;
+    for (auto const& droplet : droplets_) all.in_flight += droplet.solids();
+    std::array<double, 8> sums{all.solids,    all.water,     all.deposited,  all.walls,
+                               all.overspray, all.in_flight, all.evaporated, all.deposited_water};
+    comm_.sum(sums);
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], comm_.sum(all.hits)};
+}
+
+Readings Simulation::readings() const
+{
+    enum
+    {
+        capacity,
+        heat,
+        water,
+        dry,
+        solids_volume,
+        solids_area,
+        mass,
+        mass_height,
+        energy,
+        out_mass,
+        out_vapour,
+        out_enthalpy,
+        plate_pressure,
+        plate_area,
+        count
+    };
+    std::array<double, count> sums{};
+    double coldest = 1e9, hottest = 0;
+    double const c_dry = case_.granules.heat_capacity;
+    for (std::size_t row = 0; row < granules_.owned; ++row) {
+        double const solid = granules_.core_mass[row] + granules_.layer_mass[row] + granules_.solute[row];
+        double const c = solid * c_dry + granules_.water[row] * air::heat_capacity_water;
+        double const z = granules_.position[row].z, d = granules_.diameter[row];
+        double const volume = granules_.count[row] * math::pi / 6 * d * d * d;
+        sums[capacity] += c;
+        sums[heat] += c * granules_.temperature[row];
+        sums[water] += granules_.water[row];
+        sums[dry] += solid;
+        sums[solids_volume] += volume;
+        sums[solids_area] += volume * case_.chamber.area(std::clamp(z, 0.0, case_.chamber.height()));
+        sums[mass] += granules_.mass[row];
+        sums[mass_height] += granules_.mass[row] * z;
+        sums[energy] += 0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]);
+        coldest = std::min(coldest, granules_.temperature[row]);
+        hottest = std::max(hottest, granules_.temperature[row]);
+    }
+    if (has_gas()) {
+        sums[out_mass] = last_.mass_out, sums[out_vapour] = last_.vapour_out, sums[out_enthalpy] = last_.enthalpy_out;
+        double const g = -case_.gravity.z, height = case_.chamber.height();
+        grid::for_each_cell(grid_, [&](int i, int j, int k, Index cell) {
+            if (!grid_.open(cell)) return;
+            coldest = std::min(coldest, gas_.temperature[cell]);
+            hottest = std::max(hottest, gas_.temperature[cell]);
+            if (k == 0) {
+                // Less the weight of the gas column, as a differential pressure gauge beside the bed would read.
+                double const column = gas_.density[cell] * g * (height - grid_.centre(i, j, k).z);
+                double const area = grid_.open_area[2][cell];
+                sums[plate_area] += area;
+                // At the plate itself: half a cell below the first centre, with the gradient between the two.
+                double const above = gas_.pressure[grid_.at(i, j, k + 1)];
+                double const plate = gas_.pressure[cell] + 0.5 * (gas_.pressure[cell] - above);
+                sums[plate_pressure] += area * (plate - column);
+            }
+        });
+    }
+    comm_.sum(sums);
+    Readings r;
+    r.bed_temperature = sums[capacity] > 0 ? sums[heat] / sums[capacity] : 0;
+    r.bed_moisture = sums[dry] > 0 ? sums[water] / sums[dry] : 0;
+    r.water_on_granules = sums[water];
+    r.kinetic_energy = sums[energy];
+    r.coldest = comm_.min(coldest), r.hottest = comm_.max(hottest);
+    r.height = sums[mass] > 0 ? 2 * sums[mass_height] / sums[mass] : 0;
+    if (!has_gas()) return r;
+    if (sums[out_mass] > 0) {
+        double const w = sums[out_vapour] / sums[out_mass];
+        r.outlet_humidity = air::loading(w);
+        r.outlet_temperature = air::temperature(sums[out_enthalpy] / sums[out_mass], w);
+        double const span = balance_.wet_bulb_humidity - balance_.inlet_humidity;
+        if (span > 0) r.eta = (balance_.wet_bulb_humidity - r.outlet_humidity) / span;
+    }
+    if (sums[plate_area] > 0) r.pressure_drop = sums[plate_pressure] / sums[plate_area];
+    if (sums[solids_volume] > 0) {
+        double const density = solver_->settings().density ? *solver_->settings().density
+                                                           : air::density(case_.gas.pressure, r.bed_temperature,
+                                                                          air::fraction(r.outlet_humidity));
+        double const area = sums[solids_area] / sums[solids_volume];
+        double downward = 0;  // momentum flow of the nozzles' jets, N
+        for (auto const& nozzle : nozzles_) downward -= nozzle.momentum() * nozzle.direction.z;
+        double const g = -case_.gravity.z;
+        r.weight_over_area = ((sums[mass] - density * sums[solids_volume]) * g + downward) / area;
+    }
+    return r;
+}
+}

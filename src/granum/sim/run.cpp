@@ -1,0 +1,174 @@
+#include "granum/sim/run.hpp"
+
+#include "granum/sim/output.hpp"
+#include "granum/sim/simulation.hpp"
+#include "granum/sim/stop.hpp"
+#include "granum/sim/summary.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace granum::sim
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void write_text(std::string const& path, std::string const& text)
+{
+    std::string const fresh = path + ".new";
+    {
+        std::ofstream out(fresh);
+        out << text;
+        out.flush();
+        if (!out) throw base::IoError(fmt::format("cannot write {}", path));
+    }
+    std::error_code failed;
+    std::filesystem::rename(fresh, path, failed);
+    if (failed) throw base::IoError(fmt::format("cannot write {}: {}", path, failed.message()));
+}
+
+//! The resolved case with the origin of each value, and the file as the user wrote it.
+void write_case(std::string const& folder, ResolvedCase const& resolved)
+{
+    std::string text = fmt::format("# resolved from {}\n", resolved.data.file);
+    for (auto const& o : resolved.origins) text += fmt::format("{} = {}  # {}: {}\n", o.key, o.value, o.origin, o.doc);
+    write_text(folder + "/resolved.toml", text);
+    if (std::ifstream original(resolved.data.file); original)
+        write_text(folder + "/case.toml", std::string(std::istreambuf_iterator<char>(original), {}));
+}
+
+//! The live line: simulated time, speed, time left, and the readings an operator would look at.
+class LiveLine
+{
+  public:
+    LiveLine(bool shown, double end) : shown_(shown), terminal_(isatty(STDERR_FILENO) != 0), end_(end) {}
+
+    void update(Simulation const& simulation, Sample const& sample)
+    {
+        double const now = seconds_since(start_);
+        if (!shown_ || now - last_ < (terminal_ ? 0.5 : 20.0)) return;
+        last_ = now;
+        double const speed = simulation.time() / now, left = (end_ - simulation.time()) / std::max(speed, 1e-12);
+        auto const line = fmt::format(
+            "{:7.3f} s of {:g} s  {:6.2f} ms/s  {:3.0f}:{:02.0f} left  bed {:.2f} degC  outlet {:.2f} g/kg  eta {:.4f}",
+            simulation.time(), end_, 1e3 * speed, std::floor(left / 60), std::fmod(left, 60.0),
+            sample.readings.bed_temperature - 273.15, 1e3 * sample.readings.outlet_humidity, sample.readings.eta);
+        fmt::print(stderr, fmt::runtime(terminal_ ? "\r{}\033[K" : "{}\n"), line);
+        std::fflush(stderr);
+        dirty_ = terminal_;
+    }
+    void end()
+    {
+        if (dirty_) fmt::print(stderr, "\n");
+    }
+
+  private:
+    bool shown_, terminal_, dirty_ = false;
+    double end_, last_ = -1e9;
+    Clock::time_point start_ = Clock::now();
+};
+
+std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::string> warnings)
+{
+    auto& watch = simulation.engine().watch();
+    double const overlap = simulation.comm().max(watch.largest_overlap);
+    long const steps = simulation.comm().max(watch.warned_overlaps);
+    if (steps > 0)
+        warnings.push_back(
+            fmt::format("overlaps above 10 % of a radius on {} granule steps (largest {:.1f} %): granules are "
+                        "soft for the speeds met; a larger contact.youngs_modulus hardens them",
+                        steps, 100 * overlap));
+    return warnings;
+}
+}
+
+base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Communicator const& comm)
+{
+    auto const start = Clock::now();
+    bool const root = comm.root();
+    Case data = resolved.data;
+    double const end = options.until ? *options.until : data.time.duration;
+    auto log = std::make_shared<spdlog::logger>("run");
+    if (root) {
+        std::filesystem::create_directories(options.folder);
+        write_case(options.folder, resolved);
+        log->sinks().push_back(
+            std::make_shared<spdlog::sinks::basic_file_sink_mt>(options.folder + "/granum.log", true));
+        log->flush_on(spdlog::level::info);
+        log->info("{} on {} ranks, {} s of process", data.title, comm.size(), end);
+        for (auto const& warning : resolved.warnings) log->warn("{}", warning);
+    }
+    install_stop_signals();
+
+    Simulation simulation(data, comm);
+    Output output(options.folder, simulation);
+    if (root)
+        log->info("{} parcels, granule step {:.3g} s, set up in {:.1f} s", simulation.data().granules.parcels,
+                  simulation.granule_dt(), seconds_since(start));
+    LiveLine live(root && !options.quiet, end);
+    auto const& time = data.time;
+    double next_sample = 0, next_picture = 0, sampled = -1, pictured = -1;
+    bool stopped = false;
+    auto const look = [&](bool last) {
+        auto const scope = simulation.stopwatch().time(base::Stage::output);
+        double const now = simulation.time();
+        if (now >= next_sample * (1 - 1e-12) || (last && sampled < now)) {
+            output.sample();
+            sampled = now;
+            next_sample = now + time.series_interval;
+            if (root) live.update(simulation, output.samples().back());
+        }
+        if (now >= next_picture * (1 - 1e-12) || (last && pictured < now)) {
+            output.events();
+            output.picture();
+            pictured = now;
+            next_picture = now + time.output_interval;
+        }
+    };
+    auto const write_summary = [&](std::string const& ended) {
+        Performance performance;
+        performance.wall = seconds_since(start);
+        for (std::size_t s = 0; s < performance.seconds.size(); ++s) {
+            auto const stage = static_cast<base::Stage>(s);
+            performance.seconds[s] =
+                simulation.stopwatch().seconds(stage) + simulation.engine().stopwatch().seconds(stage);
+        }
+        comm.sum(performance.seconds);
+        performance.granule_steps = simulation.granule_steps();
+        auto const warnings = run_warnings(simulation, resolved.warnings);
+        if (!root) return;
+        for (std::size_t w = resolved.warnings.size(); w < warnings.size(); ++w) log->warn("{}", warnings[w]);
+        auto const text = summary(simulation, output, performance, warnings, ended);
+        write_text(options.folder + "/summary.json", text + "\n");
+        log->info("{}", ended);
+        live.end();
+        if (!options.quiet && !options.json) fmt::print("{}", closing_words(text));
+    };
+
+    look(false);
+    while (simulation.time() < end * (1 - 1e-12)) {
+        stopped = comm.max(stop_requested() ? 1L : 0L) > 0;
+        if (stopped) break;
+        double const goal = std::min({end, next_sample, next_picture});
+        simulation.step(goal - simulation.time());
+        look(false);
+    }
+    look(true);
+    write_summary(stopped ? "stopped" : "done");
+    return stopped ? base::Exit::interrupted : base::Exit::done;
+}
+}

@@ -1,0 +1,305 @@
+#include "granum/sim/simulation.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/drying/impact.hpp"
+#include "granum/grid/build.hpp"
+#include "granum/sim/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace granum::sim
+{
+namespace air = material;
+using grid::Index;
+
+Simulation::~Simulation() = default;
+
+Simulation::Simulation(Case data, par::Communicator const& comm) : case_(std::move(data)), comm_(comm)
+{
+    auto const number = cells(case_);
+    auto const& chamber = case_.chamber;
+    base::require(comm.size() <= number[0], "{} ranks need at least as many cells along x; there are {}", comm.size(),
+                  number[0]);
+    slabs_ = par::Slabs::balanced(chamber.lower().x, (chamber.upper().x - chamber.lower().x) / number[0],
+                                  case_.periodic[0], grid::column_weights(chamber, number), comm.size());
+    engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
+    granule_dt_ = granule_step(case_);
+
+    place_granules();
+    deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.parcels));
+    engine_->attach(*deposits_);
+    engine_->prepare(granules_);
+    if (case_.granules.start == "settled") settle();
+    if (case_.gas.present) {
+        grid_ = grid::build(chamber, number, case_.periodic, slabs_, comm_.rank());
+        start_gas();
+    }
+    if (case_.spray.present) {
+        nozzles_ = nozzles(case_);
+        flight_ = flight_settings(case_);
+        drying_ = std::make_unique<drying::Drying>(drying_settings(case_));
+        around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, slabs_, comm_.rank());
+        double const cell = std::max({grid_.spacing.x, grid_.spacing.y, grid_.spacing.z});
+        for (auto const& nozzle : nozzles_) {
+            grid::Field share = grid_.make_field();
+            double sum = 0;
+            grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
+                share[c] = nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume();
+                sum += share[c];
+            });
+            sum = comm_.sum(sum);
+            base::require(sum > 0, "the air of the nozzle at ({}, {}, {}) m meets no open cell", nozzle.position.x,
+                          nozzle.position.y, nozzle.position.z);
+            for (double& s : share) s /= sum;
+            nozzle_weights_.push_back(std::move(share));
+        }
+        if (case_.start.quasi_steady) start_deposits();
+    }
+    auto stock = stocks();
+    comm_.sum(stock);
+    ledgers_.solids.start = stock[0], ledgers_.water.start = stock[1], ledgers_.energy.start = stock[2];
+    // The first steps are measured against a hundredth of a second of what the process moves.
+    ledgers_.solids.reference = 0.01 * case_.spray.rate * case_.spray.solids_fraction;
+    ledgers_.water.reference = 0.01 * (case_.spray.rate + balance_.dry_mass_flow * balance_.outlet_humidity);
+    ledgers_.energy.reference = std::max(1e-3 * std::abs(stock[2]), 1e-9);
+    audit();
+}
+
+double Simulation::local_drying_potential(double temperature, double vapour_fraction) const
+{
+    double const span = balance_.wet_bulb_humidity - balance_.inlet_humidity;
+    return wet_bulb_ ? wet_bulb_->drying_potential(temperature, air::loading(vapour_fraction), span) : 0;
+}
+
+void Simulation::step(double longest)
+{
+    double wanted = longest;
+    if (has_gas()) {
+        wanted = std::min(wanted, case_.time.gas_step ? *case_.time.gas_step
+                                                      : std::min(solver_->courant_step(gas_, 1.0), 50 * granule_dt_));
+    } else {
+        wanted = std::min(wanted, 20 * granule_dt_);
+    }
+    // Equal steps up to the next goal, equal granule steps within each: goals are met exactly.
+    double const dt = longest < 1e300 ? longest / std::ceil(longest / wanted * (1 - 1e-9)) : wanted;
+    int const substeps = std::max(1, static_cast<int>(std::ceil(dt / granule_dt_ * (1 - 1e-9))));
+
+    if (has_gas()) gas_step(dt);
+    for (int s = 0; s < substeps; ++s) engine_->step(granules_, dt / substeps);
+
+    granule_steps_ += substeps * comm_.sum(static_cast<long>(granules_.owned));
+    time_ += dt;
+    ++steps_;
+    audit();
+}
+
+void Simulation::gas_step(double dt)
+{
+    sources_.clear(grid_);
+    grid::Field voidage;
+    {
+        auto const scope = stopwatch_.time(base::Stage::exchange);
+        mapping_->locate(granules_);
+        voidage = exchange_->voidage(granules_);
+        exchange_->share(granules_, gas_, dt, seen_, sources_);
+    }
+    if (case_.spray.present) {
+        auto const scope = stopwatch_.time(base::Stage::spray_and_drying);
+        potential_.resize(granules_.owned);
+        for (std::size_t row = 0; row < granules_.owned; ++row)
+            potential_[row] = local_drying_potential(seen_.temperature[row], seen_.vapour_fraction[row]);
+        nozzle_air(dt);
+        fly_droplets(dt);
+        drying_->advance(granules_, *deposits_,
+                         {seen_.temperature, seen_.vapour_fraction, potential_, seen_.slip, seen_.sherwood}, dt,
+                         time_ + dt, evaporated_, events_);
+        auto const stencils = mapping_->stencils();
+        for (std::size_t row = 0; row < granules_.owned; ++row) {
+            if (evaporated_[row] == 0) continue;
+            double const rate = evaporated_[row] / dt;
+            mine_.evaporated += evaporated_[row];
+            coupling::Mapping::spread(stencils[row], rate, sources_.mass);
+            coupling::Mapping::spread(stencils[row], rate, sources_.vapour);
+            coupling::Mapping::spread(stencils[row], rate * air::vapour_enthalpy(granules_.temperature[row]),
+                                      sources_.enthalpy);
+        }
+    }
+    {
+        auto const scope = stopwatch_.time(base::Stage::exchange);
+        grid::Field* fields[] = {&sources_.drag_coefficient, &sources_.drag_momentum[0],
+                                 &sources_.drag_momentum[1], &sources_.drag_momentum[2],
+                                 &sources_.force[0],         &sources_.force[1],
+                                 &sources_.force[2],         &sources_.mass,
+                                 &sources_.vapour,           &sources_.enthalpy,
+                                 &sources_.heat_coefficient, &sources_.heat_value};
+        mapping_->finish(fields);
+    }
+    {
+        auto const scope = stopwatch_.time(base::Stage::gas);
+        last_ = solver_->advance(gas_, sources_, voidage, dt);
+        in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
+        in_[2] += last_.enthalpy_in, out_[2] += last_.enthalpy_out;
+    }
+    {
+        auto const scope = stopwatch_.time(base::Stage::exchange);
+        double const mismatch =
+            exchange_->deliver(granules_, gas_, solver_->exchanged_temperature(), dt, seen_, sources_);
+        ledgers_.momentum = std::max(ledgers_.momentum, mismatch);
+    }
+    if (case_.spray.present) engine_->changed(granules_);
+}
+
+void Simulation::nozzle_air(double dt)
+{
+    for (std::size_t n = 0; n < nozzles_.size(); ++n) {
+        auto const& nozzle = nozzles_[n];
+        double const enthalpy =
+            nozzle.air_mass_flow * air::enthalpy(nozzle.air_temperature, nozzle.air_vapour_fraction);
+        double const vapour = nozzle.air_mass_flow * nozzle.air_vapour_fraction;
+        double share = 0;
+        grid::for_each_cell(grid_, [&](int, int, int, Index cell) {
+            double const s = nozzle_weights_[n][cell];
+            if (s == 0) return;
+            share += s;
+            sources_.mass[cell] += s * nozzle.air_mass_flow;
+            sources_.vapour[cell] += s * vapour;
+            sources_.enthalpy[cell] += s * enthalpy;
+            for (std::size_t d = 0; d < 3; ++d) sources_.force[d][cell] += s * nozzle.momentum() * nozzle.direction[d];
+        });
+        in_[1] += share * vapour * dt;
+        in_[2] += share * enthalpy * dt;
+    }
+}
+
+void Simulation::fly_droplets(double dt)
+{
+    spray::Liquid const& liquid = flight_.liquid;
+    for (auto const& nozzle : nozzles_) {
+        if (slabs_.owner(nozzle.position.x) != comm_.rank()) continue;
+        for (auto& droplet : nozzle.emit(time_, dt, liquid, case_.seed)) {
+            mine_.solids += droplet.solids();
+            mine_.water += droplet.liquid_water();
+            in_[0] += droplet.solids();
+            in_[1] += droplet.liquid_water();
+            in_[2] += droplet.enthalpy(liquid);
+            droplets_.push_back(droplet);
+        }
+    }
+    around_->prepare(*solver_, gas_, granules_, sources_, dt);
+    spray::Outcome outcome;
+    spray::fly(droplets_, flight_, case_.chamber, *around_, dt, static_cast<std::uint32_t>(steps_), outcome);
+    mine_.evaporated += outcome.evaporated;
+    mine_.walls += outcome.walls.solids;
+    mine_.overspray += outcome.overspray.solids;
+    for (auto const* losses : {&outcome.walls, &outcome.overspray}) {
+        out_[0] += losses->solids;
+        out_[1] += losses->water;
+        out_[2] += losses->enthalpy;
+    }
+    for (auto const& hit : outcome.hits) receive(hit);
+    exchange_droplets(std::move(outcome.leaving));
+}
+
+void Simulation::receive(spray::Hit const& hit)
+{
+    auto const& droplet = hit.droplet;
+    auto const& liquid = flight_.liquid;
+    std::size_t const row = hit.row;
+    base::Random random(case_.seed, base::Purpose::impact, droplet.id, 0);
+    drying::Arrival const arrival{.weight = droplet.weight,
+                                  .water = droplet.water,
+                                  .solute = droplet.solute,
+                                  .diameter = droplet.diameter(liquid),
+                                  .temperature = droplet.temperature,
+                                  .enthalpy = droplet.enthalpy(liquid),
+                                  .age = droplet.age,
+                                  .path = droplet.path,
+                                  .position = droplet.position,
+                                  .velocity = droplet.velocity,
+                                  .density = liquid.density,
+                                  .viscosity = liquid.viscosity,
+                                  .surface_tension = liquid.surface_tension,
+                                  .contact_angle = liquid.contact_angle,
+                                  .sine = std::sqrt(random.uniform())};
+    drying::Local const local{.gas_temperature = seen_.temperature[row],
+                              .gas_humidity = air::loading(seen_.vapour_fraction[row]),
+                              .pressure = case_.gas.pressure,
+                              .drying_potential = potential_[row],
+                              .solids_fraction = seen_.solids_fraction[row],
+                              .slip = seen_.slip[row]};
+    drying::deposit(granules_, row, *deposits_, arrival, local, time_);
+    mine_.deposited += droplet.solids();
+    mine_.deposited_water += droplet.liquid_water();
+    ++mine_.hits;
+}
+
+void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)
+{
+    if (comm_.size() == 1) return;
+    // Everybody sees who leaves and keeps what is its own: droplets are few, and any distance may be crossed.
+    auto const bytes = std::as_bytes(std::span(leaving));
+    auto all = comm_.gather(bytes);
+    comm_.broadcast(all);
+    for (std::size_t at = 0; at + sizeof(spray::Droplet) <= all.size(); at += sizeof(spray::Droplet)) {
+        spray::Droplet droplet;
+        std::memcpy(&droplet, all.data() + at, sizeof droplet);
+        if (slabs_.owner(droplet.position.x) == comm_.rank()) droplets_.push_back(droplet);
+    }
+}
+
+std::array<double, 3> Simulation::stocks() const
+{
+    std::array<double, 3> stock{};
+    for (std::size_t row = 0; row < granules_.owned; ++row) {
+        stock[0] += granules_.layer_mass[row] + granules_.solute[row];
+        stock[1] += granules_.water[row];
+        stock[2] += granules_.enthalpy[row];
+    }
+    for (auto const& droplet : droplets_) {
+        stock[0] += droplet.solids();
+        stock[1] += droplet.liquid_water();
+        stock[2] += droplet.enthalpy(flight_.liquid);
+    }
+    if (has_gas())
+        grid::for_each_cell(grid_, [&](int, int, int, Index cell) {
+            stock[1] += gas_.vapour[cell];
+            stock[2] += gas_.enthalpy[cell];
+        });
+    return stock;
+}
+
+void Simulation::audit()
+{
+    std::array<double, 9> sums{};
+    auto const stock = stocks();
+    for (std::size_t q = 0; q < 3; ++q) sums[q] = stock[q], sums[3 + q] = in_[q], sums[6 + q] = out_[q];
+    comm_.sum(sums);
+    Ledger* ledgers[] = {&ledgers_.solids, &ledgers_.water, &ledgers_.energy};
+    for (std::size_t q = 0; q < 3; ++q) {
+        Ledger& ledger = *ledgers[q];
+        ledger.now = sums[q], ledger.in = sums[3 + q], ledger.out = sums[6 + q];
+        base::require(std::isfinite(ledger.now), "the {} ledger is not finite at {} s, step {}", ledger.name, time_,
+                      steps_);
+        base::require(
+            !ledger.broken() || !case_.gas.present,
+            "the {0} ledger leaks at {1:.6g} s: there are {2:.9g} {6}, but start {3:.9g} + in {4:.9g} - out {5:.9g} "
+            "do not add up to it (relative error {7:.2g}, the bar is {8:.0g})",
+            ledger.name, time_, ledger.now, ledger.start, ledger.in, ledger.out, ledger.unit, ledger.relative_error(),
+            ledger.bar);
+    }
+    base::require(ledgers_.momentum <= 10 * Ledgers::momentum_bar,
+                  "momentum is lost between gas and granules at {:.6g} s: relative mismatch {:.2g}", time_,
+                  ledgers_.momentum);
+}
+
+std::vector<drying::Event> Simulation::take_events()
+{
+    auto const bytes = comm_.gather(std::as_bytes(std::span(events_)));
+    events_.clear();
+    std::vector<drying::Event> all(bytes.size() / sizeof(drying::Event));
+    if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+    return all;
+}
+}

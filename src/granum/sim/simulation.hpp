@@ -1,0 +1,131 @@
+// A simulation: the state of a case on this rank and the coupling step that moves it on.
+//
+// One step, in order: voidage, exchange coefficients, spray, drying (all with the gas at the beginning) feed the
+// sources of one gas step; what the gas step gave goes to the granules; then granule steps with the gas held; then the
+// audit.
+#pragma once
+
+#include "granum/coupling/exchange.hpp"
+#include "granum/dem/engine.hpp"
+#include "granum/drying/drying.hpp"
+#include "granum/gas/flow.hpp"
+#include "granum/material/wet_bulb_table.hpp"
+#include "granum/sim/balance.hpp"
+#include "granum/sim/case.hpp"
+#include "granum/sim/ledger.hpp"
+#include "granum/sim/surroundings.hpp"
+#include "granum/spray/flight.hpp"
+#include "granum/spray/nozzle.hpp"
+
+#include <memory>
+
+namespace granum::sim
+{
+//! What passed since the start, over all ranks, in kg.
+struct SprayTotals
+{
+    double solids = 0, water = 0;                    //!< left the nozzles
+    double deposited = 0, walls = 0, overspray = 0;  //!< solids
+    double in_flight = 0;                            //!< solids, now
+    double evaporated = 0;                           //!< water, from droplets and deposits
+    double deposited_water = 0;
+    long hits = 0;
+};
+
+//! The outside of the process as it is now, over all ranks.
+struct Readings
+{
+    double bed_temperature = 0;       //!< K, mean over granules by heat capacity
+    double bed_moisture = 0;          //!< kg liquid water per kg dry bed
+    double outlet_temperature = 0;    //!< K, of what left in the last step
+    double outlet_humidity = 0;       //!< kg/kg dry
+    double eta = 0;                   //!< global drying potential from the outlet's humidity
+    double pressure_drop = 0;         //!< Pa, plate less outlet, hydrostatic part of the gas taken off
+    double weight_over_area = 0;      //!< Pa, see summary
+    double height = 0;                //!< m, of the bed: twice the mean height of its mass above the plate
+    double coldest = 0, hottest = 0;  //!< K over gas and granules
+    double water_on_granules = 0;     //!< kg
+    double kinetic_energy = 0;        //!< J of the granules
+};
+
+class Simulation
+{
+  public:
+    //! Builds the state at time zero. Collective. Throws as the rooms do.
+    Simulation(Case data, par::Communicator const& comm);
+    ~Simulation();
+
+    //! One coupling step of at most `longest` seconds. Collective.
+    void step(double longest);
+
+    double time() const { return time_; }
+    long steps() const { return steps_; }
+    long granule_steps() const { return granule_steps_; }  //!< steps of all granules, summed
+    double granule_dt() const { return granule_dt_; }
+    Case const& data() const { return case_; }
+    par::Communicator const& comm() const { return comm_; }
+    particle::Store& granules() { return granules_; }
+    dem::Engine& engine() { return *engine_; }
+    bool has_gas() const { return solver_ != nullptr; }
+    grid::Grid const& grid() const { return grid_; }
+    gas::State const& gas() const { return gas_; }
+    gas::Solver const& solver() const { return *solver_; }
+    std::vector<spray::Droplet> const& droplets() const { return droplets_; }
+    drying::Deposits const& deposits() const { return *deposits_; }
+    Balance const& steady() const { return balance_; }
+    Ledgers const& ledgers() const { return ledgers_; }
+    SprayTotals totals() const;  //!< Collective.
+    Readings readings() const;   //!< Collective.
+    base::Stopwatch& stopwatch() { return stopwatch_; }
+    double local_drying_potential(double temperature, double vapour_fraction) const;
+    long clamped_cells() const { return exchange_ ? exchange_->clamped_cells() : 0; }
+
+    //! The events since the last call, of all ranks, on rank 0 (empty elsewhere). Collective.
+    std::vector<drying::Event> take_events();
+
+  private:
+    void place_granules();
+    void start_gas();
+    void start_deposits();
+    void settle();
+    void fly_droplets(double dt);
+    void receive(spray::Hit const& hit);
+    void exchange_droplets(std::vector<spray::Droplet> leaving);
+    void nozzle_air(double dt);
+    void gas_step(double dt);
+    void audit();
+    std::array<double, 3> stocks() const;  //!< solids, water, energy of this rank
+
+    Case case_;
+    par::Communicator const& comm_;
+    par::Slabs slabs_;
+    grid::Grid grid_;
+    particle::Store granules_;
+    std::unique_ptr<dem::Engine> engine_;
+    std::unique_ptr<gas::Solver> solver_;
+    gas::State gas_;
+    gas::Sources sources_;
+    std::unique_ptr<coupling::Mapping> mapping_;
+    std::unique_ptr<coupling::Exchange> exchange_;
+    coupling::Seen seen_;
+    std::vector<spray::Nozzle> nozzles_;
+    std::vector<grid::Field> nozzle_weights_;  //!< share of each nozzle's air per cell
+    std::unique_ptr<DropletSurroundings> around_;
+    spray::FlightSettings flight_;
+    std::vector<spray::Droplet> droplets_;
+    std::unique_ptr<drying::Deposits> deposits_;
+    std::unique_ptr<drying::Drying> drying_;
+    std::unique_ptr<material::WetBulbTable> wet_bulb_;
+    std::vector<double> potential_, evaporated_;
+    std::vector<drying::Event> events_;
+    Balance balance_;
+    Ledgers ledgers_;
+    //! Sums since the start on this rank: solids, water, energy that came in and went out.
+    std::array<double, 3> in_{}, out_{};
+    SprayTotals mine_;
+    gas::Balance last_;  //!< boundary flows of the last gas step
+    base::Stopwatch stopwatch_;
+    double time_ = 0, granule_dt_ = 0;
+    long steps_ = 0, granule_steps_ = 0;
+};
+}

@@ -1,0 +1,240 @@
+// The state at time zero: granules where the case wants them, gas and moisture as the balance says they must end up.
+#include "granum/base/error.hpp"
+#include "granum/drying/impact.hpp"
+#include "granum/law/droplet/size.hpp"
+#include "granum/law/impact/splash.hpp"
+#include "granum/law/wetting/footprint.hpp"
+#include "granum/particle/generate.hpp"
+#include "granum/sim/build.hpp"
+#include "granum/sim/simulation.hpp"
+#include "granum/sim/stop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::sim
+{
+namespace air = material;
+
+namespace
+{
+//! How the water of one deposit falls while it dries under fixed conditions.
+struct DryingCurve
+{
+    std::vector<double> time{0}, water{1};  //!< s, fraction of the water at impact
+
+    double duration() const { return time.back(); }
+    double at(double share) const  //!< share of the duration, 0 to 1
+    {
+        double const t = share * duration();
+        auto const next = std::upper_bound(time.begin(), time.end(), t);
+        if (next == time.end()) return water.back();
+        auto const i = static_cast<std::size_t>(next - time.begin());
+        double const part = (t - time[i - 1]) / (time[i] - time[i - 1]);
+        return water[i - 1] + part * (water[i] - water[i - 1]);
+    }
+};
+}
+
+void Simulation::place_granules()
+{
+    auto& batch = case_.granules;
+    std::vector<GranuleCase> list = batch.given;
+    double count = 1;
+    if (list.empty()) {
+        double const one = batch.density * math::pi / 6 * std::pow(batch.diameter, 3);
+        double const real = batch.mass / one;
+        if (batch.parcels <= 0) batch.parcels = std::max(1L, std::lround(real / std::pow(batch.parcel_ratio, 3)));
+        count = real / static_cast<double>(batch.parcels);  // so that the batch has its mass to the last digit
+        double const radius = 0.5 * batch.diameter * std::cbrt(count);
+        auto const places = batch.start == "lattice"
+                                ? particle::lattice(case_.chamber, radius, 2.2 * radius, batch.parcels)
+                                : particle::random_loose(case_.chamber, radius, batch.parcels, case_.seed);
+        for (auto const& place : places) list.push_back({.position = place, .diameter = batch.diameter});
+    }
+    batch.parcels = static_cast<long>(list.size());
+    for (std::size_t id = 0; id < list.size(); ++id) {
+        GranuleCase const& given = list[id];
+        if (slabs_.owner(given.position.x) != comm_.rank()) continue;
+        std::size_t const row = granules_.rows();
+        granules_.resize(row + 1);
+        double const diameter = given.diameter > 0 ? given.diameter : batch.diameter;
+        double const density = given.density > 0 ? given.density : batch.density;
+        granules_.id[row] = id;
+        granules_.position[row] = given.position;
+        granules_.velocity[row] = given.velocity;
+        granules_.spin[row] = given.spin;
+        granules_.count[row] = count;
+        granules_.diameter[row] = granules_.core_diameter[row] = diameter;
+        granules_.core_mass[row] = count * density * math::pi / 6 * diameter * diameter * diameter;
+        granules_.temperature[row] = math::zero_celsius;
+        drying::resize_granule(granules_, row);
+    }
+    granules_.owned = granules_.rows();
+}
+
+void Simulation::settle()
+{
+    // The granules fall under gravity in a still, thick gas (rate 5 1/s) until they rest.
+    for (std::size_t row = 0; row < granules_.rows(); ++row) granules_.drag_rate[row] = 5;
+    double const g = math::norm(case_.gravity);
+    double const radius = largest_radius(case_);
+    int const batch = 100;
+    for (int round = 0; round < 400; ++round) {
+        for (int s = 0; s < batch; ++s) engine_->step(granules_, granule_dt_);
+        double squares = 0;
+        for (std::size_t row = 0; row < granules_.owned; ++row) squares += math::norm2(granules_.velocity[row]);
+        double const mean = comm_.sum(squares) / static_cast<double>(case_.granules.parcels);
+        bool const stop = comm_.max(stop_requested() ? 1L : 0L) > 0;
+        if (stop || (round > 5 && mean < 0.01 * g * radius)) break;
+    }
+    for (std::size_t row = 0; row < granules_.rows(); ++row) {
+        granules_.drag_rate[row] = 0;
+        granules_.drag_impulse[row] = {};
+        granules_.velocity[row] = {};
+        granules_.spin[row] = {};
+    }
+    engine_->prepare(granules_);
+}
+
+void Simulation::start_gas()
+{
+    auto const& gas = case_.gas;
+    auto const& inlet = gas.inlet;
+    bool const flows = !gas.closed;
+    if (flows) {
+        balance_ = balance(case_);
+        wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
+    }
+    bool const steady = flows && case_.start.quasi_steady;
+    double const temperature = case_.start.gas_temperature ? *case_.start.gas_temperature
+                               : steady                    ? balance_.outlet_temperature
+                                                           : inlet.temperature;
+    double const vapour = air::fraction(steady ? balance_.outlet_humidity : inlet.humidity);
+    double const bed = (case_.start.bed_temperature ? *case_.start.bed_temperature
+                        : steady                    ? balance_.outlet_temperature
+                                                    : temperature) +
+                       case_.start.temperature_offset;
+
+    solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
+    mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, gas.smoothing);
+    exchange_ = std::make_unique<coupling::Exchange>(exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
+                                                     gas.pressure, case_.granules.heat_capacity, case_.granules.frozen);
+    for (std::size_t row = 0; row < granules_.owned; ++row) {
+        granules_.temperature[row] = bed;
+        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (bed - math::zero_celsius);
+    }
+    Vec3 velocity = gas.initial_velocity;
+    if (flows && velocity == Vec3{}) {
+        double const density = gas.density ? *gas.density : air::density(gas.pressure, temperature, vapour);
+        double const area = case_.chamber.volume() / case_.chamber.height();
+        velocity.z = solver_->settings().inlet->mass_flow / (density * area);
+    }
+    mapping_->locate(granules_);
+    gas_ = solver_->start(exchange_->voidage(granules_), temperature, vapour, velocity);
+}
+
+void Simulation::start_deposits()
+{
+    // What is wet in the steady state: deposits of every age up to their drying time, born at the rate of the spray,
+    // spread evenly over a well-mixed bed at the balance's temperature and humidity.
+    auto const& spray = case_.spray;
+    auto const& liquid = flight_.liquid;
+    auto const& batch = case_.granules;
+    double const pressure = case_.gas.pressure;
+    double const temperature = balance_.outlet_temperature;
+    double const vapour = air::fraction(balance_.outlet_humidity);
+    double const real = batch.mass / (batch.density * math::pi / 6 * std::pow(batch.diameter, 3));
+    if (!(real > 0)) return;
+
+    auto const film = law::deposit::film(temperature, 1.0, temperature, vapour, pressure);
+    double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
+    double const speed = solver_->settings().inlet->mass_flow / (density * case_.chamber.area(0));
+    double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
+    double const sherwood = std::visit(
+        [&](auto const& law) {
+            return law(
+                {.solid_fraction = 0.4, .reynolds = density * speed * batch.diameter / viscosity, .prandtl = schmidt});
+        },
+        exchange_->laws().heat);
+    double const full =
+        law::deposit::boundary_layer_rate(sherwood, batch.diameter, math::pi * batch.diameter * batch.diameter, film);
+    // Caps share their boundary layers: in the steady state sum / (1 + sum / full) is what the spray brings.
+    double const share = balance_.water_rate / real;  // kg/s per granule
+    double const sum = share / std::max(0.05, 1 - share / full);
+
+    // One deposit of the median droplet; the others dry in times proportional to the square of their diameter.
+    double const median = spray.droplet_median;
+    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(0));
+    auto const& nozzle = nozzles_.front();
+    Vec3 const surface = nozzle.position + std::max(0.02, nozzle.position.z - 1.5 * settled) * nozzle.direction;
+    law::impact::Impact const impact{spray.density, spray.viscosity, spray.surface_tension,
+                                     2.0 / 3 * std::max(3.0, nozzle.jet_speed(surface, density)), median};
+    double const mass = spray.density * math::pi / 6 * median * median * median;
+    drying::Deposit deposit;
+    deposit.weight = 1;
+    deposit.water = deposit.water_at_impact = mass * (1 - spray.solids_fraction);
+    deposit.solute = mass * spray.solids_fraction;
+    deposit.base_radius =
+        law::wetting::footprint_radius(median, spray.contact_angle, impact.weber(), impact.reynolds());
+    double const foot = math::pi * deposit.base_radius * deposit.base_radius;
+    double const saturation = air::saturation_pressure(temperature) / pressure;
+    double const dry = case_.drying.end_moisture * deposit.water_at_impact;
+    DryingCurve curve;
+    while (deposit.water > dry && curve.time.size() < 100000) {
+        double const cap = drying_->cap_rate(deposit, film, saturation);
+        double const layer = law::deposit::boundary_layer_rate(sherwood, batch.diameter, foot, film);
+        double const rate =
+            std::visit([&](auto const& law) { return law(cap, sum, layer, full); }, drying_->settings().combine);
+        base::require(rate > 0, "deposits cannot dry at the balance's outlet state ({:.2f} K, {:.5f} kg/kg)",
+                      temperature, balance_.outlet_humidity);
+        double const h = std::min(0.01 * deposit.water_at_impact, deposit.water - 0.5 * dry) / rate;
+        deposit.water = std::max(deposit.water - rate * h, 0.0);
+        curve.time.push_back(curve.time.back() + h);
+        curve.water.push_back(deposit.water / deposit.water_at_impact);
+    }
+
+    std::vector<long> row_of(static_cast<std::size_t>(batch.parcels), -1);
+    for (std::size_t row = 0; row < granules_.owned; ++row) row_of[granules_.id[row]] = static_cast<long>(row);
+    double const per_second = spray.parcels_per_second;
+    double const longest = curve.duration() * std::pow(spray.droplet_spread, 8);  // four standard deviations, squared
+    for (std::uint64_t n = 0; static_cast<double>(n) < longest * per_second; ++n) {
+        base::Random random(case_.seed, base::Purpose::deposit, n, 0);
+        double const diameter = law::droplet::sample_volume_weighted(median, spray.droplet_spread, random.normal());
+        double const size = diameter / median, duration = curve.duration() * size * size;
+        double const age = (static_cast<double>(n) + 0.5) / per_second;
+        auto const id = static_cast<std::size_t>(random.uniform() * static_cast<double>(batch.parcels));
+        long const found = row_of[id];
+        if (age >= duration || found < 0) continue;
+        auto const row = static_cast<std::size_t>(found);
+        double const one = mass * size * size * size;
+        drying::Deposit old;
+        old.weight = spray.rate / per_second / one;
+        old.water_at_impact = old.weight * one * (1 - spray.solids_fraction);
+        old.water = old.water_at_impact * curve.at(age / duration);
+        old.solute = old.weight * one * spray.solids_fraction;
+        old.base_radius = deposit.base_radius * size;
+        old.time = age;
+        double const potential = local_drying_potential(temperature, vapour);
+        old.gas_temperature = old.granule_temperature = age * temperature;
+        old.gas_humidity = age * balance_.outlet_humidity;
+        old.drying_potential = age * potential;
+        old.slip = age * speed;
+        old.record.initial = 1;
+        old.record.t_deposit = -age;
+        old.record.droplet_diameter = diameter;
+        old.record.moisture_at_impact = liquid.feed_moisture();
+        old.record.gas_temperature = old.record.granule_temperature = old.record.droplet_temperature = temperature;
+        old.record.gas_humidity = balance_.outlet_humidity;
+        old.record.drying_potential = potential;
+        granules_.water[row] += old.water;
+        granules_.solute[row] += old.solute;
+        deposits_->on(id).push_back(old);
+        drying::resize_granule(granules_, row);
+    }
+    for (std::size_t row = 0; row < granules_.owned; ++row)
+        granules_.enthalpy[row] =
+            exchange_->heat_capacity(granules_, row) * (granules_.temperature[row] - math::zero_celsius);
+    engine_->changed(granules_);
+}
+}

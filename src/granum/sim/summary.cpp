@@ -1,0 +1,182 @@
+#include "granum/sim/summary.hpp"
+
+#include "granum/sim/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace granum::sim
+{
+using json = nlohmann::json;
+
+namespace
+{
+//! Mean of a reading over the samples from `from` on.
+template <class Pick>
+double mean(std::vector<Sample> const& samples, double from, Pick&& pick)
+{
+    double sum = 0;
+    int count = 0;
+    for (auto const& sample : samples)
+        if (sample.time >= from) sum += pick(sample), ++count;
+    return count > 0 ? sum / count : 0;
+}
+
+json ledger(Ledger const& l)
+{
+    return {{"relative_error", l.relative_error()},
+            {"bar", l.bar},
+            {"start", l.start},
+            {"in", l.in},
+            {"out", l.out},
+            {"now", l.now},
+            {"unit", l.unit}};
+}
+
+json product_part(Simulation const& simulation, Output const& output)
+{
+    auto const& data = simulation.data();
+    json out{{"model", data.product.porosity_model},
+             {"validated", false},
+             {"illustrative", data.product.illustrative},
+             {"notice", "this map is not validated on a measured product"}};
+    auto const& view = output.last_view();
+    if (!view.diameter.empty()) {
+        auto const sizes = product::size_percentiles(view.diameter, view.count, product::Weighting::volume);
+        out["size_m"] = {{"d10", sizes.p10}, {"d50", sizes.p50}, {"d90", sizes.p90}};
+    }
+    if (!output.samples().empty()) out["residual_moisture"] = output.samples().back().readings.bed_moisture;
+    if (output.event_count() == 0) {
+        out["porosity"] = nullptr;
+        return out;
+    }
+    auto const batch = product::batch_property(output.layers(), view.count);
+    out["porosity"] = {{"mean", batch.mean.mean},
+                       {"p10", batch.granules.p10},
+                       {"p50", batch.granules.p50},
+                       {"p90", batch.granules.p90},
+                       {"interval_low", batch.low},
+                       {"interval_high", batch.high},
+                       {"deviation_common", batch.mean.common},
+                       {"deviation_sampling", batch.mean.element}};
+    return out;
+}
+}
+
+std::string summary(Simulation const& simulation, Output const& output, Performance const& performance,
+                    std::vector<std::string> const& warnings, std::string const& ended)
+{
+    auto const& data = simulation.data();
+    auto const& samples = output.samples();
+    Sample const last = samples.empty() ? Sample{} : samples.back();
+    double const end = last.time, third = 2 * end / 3;
+    auto const over_last_third = [&](auto pick) { return mean(samples, third, pick); };
+    json out;
+    out["schema"] = "granum-summary-1";
+    out["title"] = data.title;
+    out["ended"] = ended;
+    out["warnings"] = warnings;
+    out["run"] = {{"wall_s", performance.wall},
+                  {"simulated_s", simulation.time()},
+                  {"steps", simulation.steps()},
+                  {"ranks", simulation.comm().size()},
+                  {"granule_step_s", simulation.granule_dt()}};
+    double represented = 0;
+    for (double c : output.last_view().count) represented += c;
+    out["granules"] = {{"parcels", data.granules.parcels},
+                       {"represented", represented},
+                       {"mass_kg", data.granules.mass},
+                       {"parcel_ratio", data.granules.parcel_ratio}};
+    if (simulation.has_gas()) {
+        auto const& steady = simulation.steady();
+        out["gas"]["cells"] = data.gas.cells[0] * data.gas.cells[1] * data.gas.cells[2];
+        if (!data.gas.closed)
+            out["balance"] = {{"eta", steady.eta},
+                              {"outlet_humidity", steady.outlet_humidity},
+                              {"outlet_temperature_K", steady.outlet_temperature},
+                              {"wet_bulb_K", steady.wet_bulb},
+                              {"wet_bulb_humidity", steady.wet_bulb_humidity},
+                              {"outlet_relative_humidity", steady.outlet_relative_humidity}};
+        out["result"] = {
+            {"eta_global", over_last_third([](Sample const& s) { return s.readings.eta; })},
+            {"outlet_humidity", over_last_third([](Sample const& s) { return s.readings.outlet_humidity; })},
+            {"outlet_temperature_K", over_last_third([](Sample const& s) { return s.readings.outlet_temperature; })},
+            {"bed_temperature_K", over_last_third([](Sample const& s) { return s.readings.bed_temperature; })}};
+        double coldest = 1e9, hottest = 0;
+        for (auto const& s : samples) {
+            coldest = std::min(coldest, s.readings.coldest);
+            hottest = std::max(hottest, s.readings.hottest);
+        }
+        out["result"]["coldest_K"] = coldest, out["result"]["hottest_K"] = hottest;
+        out["bed"] = {
+            {"pressure_drop_Pa", over_last_third([](Sample const& s) { return s.readings.pressure_drop; })},
+            {"weight_over_area_Pa", over_last_third([](Sample const& s) { return s.readings.weight_over_area; })},
+            {"height_m", over_last_third([](Sample const& s) { return s.readings.height; })}};
+    }
+    if (data.spray.present) {
+        auto const& t = last.totals;
+        out["spray"] = {{"sprayed_kg", t.solids}, {"deposited_kg", t.deposited}, {"overspray_kg", t.overspray},
+                        {"on_walls_kg", t.walls}, {"in_flight_kg", t.in_flight}, {"hits", t.hits}};
+        out["water"] = {{"sprayed_kg", t.water},
+                        {"evaporated_kg", t.evaporated},
+                        {"on_granules_kg", last.readings.water_on_granules}};
+        auto const first =
+            std::find_if(samples.begin(), samples.end(), [&](auto const& s) { return s.time >= end / 3; });
+        if (first != samples.end() && end > 0) {
+            out["water"]["sprayed_last_two_thirds_kg"] = t.water - first->totals.water;
+            out["water"]["evaporated_last_two_thirds_kg"] = t.evaporated - first->totals.evaporated;
+        }
+    }
+    auto const& ledgers = simulation.ledgers();
+    out["ledger"] = {{"solids", ledger(ledgers.solids)},
+                     {"water", ledger(ledgers.water)},
+                     {"energy", ledger(ledgers.energy)},
+                     {"momentum", {{"relative_error", ledgers.momentum}, {"bar", Ledgers::momentum_bar}}}};
+    out["events"]["count"] = output.event_count();
+    out["product"] = product_part(simulation, output);
+    double total = 0;
+    for (double s : performance.seconds) total += s;
+    out["performance"]["granule_steps_per_s"] =
+        performance.wall > 0 ? static_cast<double>(performance.granule_steps) / performance.wall : 0;
+    for (std::size_t s = 0; s < performance.seconds.size(); ++s)
+        out["performance"]["share"][std::string(base::stage_names[s])] = total > 0 ? performance.seconds[s] / total : 0;
+    return out.dump(2);
+}
+
+std::string closing_words(std::string const& summary_json)
+{
+    json const s = json::parse(summary_json);
+    std::string out =
+        fmt::format("{} after {:.3g} s of process in {:.0f} s of work on {} rank{}\n", s["ended"].get<std::string>(),
+                    s["run"]["simulated_s"].get<double>(), s["run"]["wall_s"].get<double>(),
+                    s["run"]["ranks"].get<int>(), s["run"]["ranks"] == 1 ? "" : "s");
+    auto const& product = s["product"];
+    if (product["porosity"].is_object()) {
+        auto const& p = product["porosity"];
+        out += fmt::format(
+            "layer porosity    {:.3f} (95 % interval {:.3f} to {:.3f}); granules p10 {:.3f}, p50 {:.3f}, p90 {:.3f}\n",
+            p["mean"].get<double>(), p["interval_low"].get<double>(), p["interval_high"].get<double>(),
+            p["p10"].get<double>(), p["p50"].get<double>(), p["p90"].get<double>());
+        out += fmt::format("                  {}\n", product["notice"].get<std::string>());
+    }
+    if (s.contains("balance"))
+        out += fmt::format(
+            "drying potential  {:.4f} (balance {:.4f}); outlet {:.2f} g/kg (balance {:.2f}), {:.1f} degC (balance "
+            "{:.1f})\n",
+            s["result"]["eta_global"].get<double>(), s["balance"]["eta"].get<double>(),
+            1e3 * s["result"]["outlet_humidity"].get<double>(), 1e3 * s["balance"]["outlet_humidity"].get<double>(),
+            s["result"]["outlet_temperature_K"].get<double>() - 273.15,
+            s["balance"]["outlet_temperature_K"].get<double>() - 273.15);
+    if (s.contains("bed"))
+        out += fmt::format("bed               pressure drop {:.1f} Pa, weight over area {:.1f} Pa\n",
+                           s["bed"]["pressure_drop_Pa"].get<double>(), s["bed"]["weight_over_area_Pa"].get<double>());
+    out += fmt::format("ledgers           solids {:.1e}, water {:.1e}, energy {:.1e} (relative)\n",
+                       s["ledger"]["solids"]["relative_error"].get<double>(),
+                       s["ledger"]["water"]["relative_error"].get<double>(),
+                       s["ledger"]["energy"]["relative_error"].get<double>());
+    return out;
+}
+}

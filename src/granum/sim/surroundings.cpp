@@ -1,0 +1,116 @@
+#include "granum/sim/surroundings.hpp"
+
+#include "granum/material/moist_air.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::sim
+{
+using coupling::Mapping;
+using grid::Index;
+using math::Vec3;
+
+DropletSurroundings::DropletSurroundings(grid::Grid const& grid, Mapping const& mapping,
+                                         std::vector<spray::Nozzle> const& nozzles, par::Slabs const& slabs, int rank)
+    : grid_(grid), mapping_(mapping), nozzles_(nozzles), slabs_(slabs), rank_(rank)
+{
+    // The cells carry the jet once its half-width is one and a half cells (physics.md 4.1).
+    double const cell = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    jet_reach_ = 1.5 * cell / spray::Nozzle::half_width(1.0);
+}
+
+std::array<int, 3> DropletSurroundings::cell_of(Vec3 const& x) const
+{
+    std::array<int, 3> cell;
+    for (std::size_t d = 0; d < 3; ++d) {
+        double const local = (x[d] - grid_.origin[d]) / grid_.spacing[d] - (d == 0 ? grid_.shift : 0);
+        cell[d] = std::clamp(static_cast<int>(std::floor(local)), 0, grid_.n[d] - 1);
+    }
+    return cell;
+}
+
+void DropletSurroundings::prepare(gas::Solver const& solver, gas::State const& state, particle::Store const& granules,
+                                  gas::Sources& sources, double dt)
+{
+    velocity_ = solver.cell_velocity(state);
+    grid::Field* fields[] = {&velocity_[0], &velocity_[1], &velocity_[2]};
+    mapping_.prepare(fields);
+    state_ = &state, sources_ = &sources, granules_ = &granules, dt_ = dt;
+    // Counting sort of the granules by cell.
+    first_.assign(grid_.size() + 1, 0);
+    rows_.resize(granules.owned);
+    std::vector<std::uint32_t> cell(granules.owned);
+    for (std::size_t row = 0; row < granules.owned; ++row) {
+        auto const [i, j, k] = cell_of(granules.position[row]);
+        cell[row] = static_cast<std::uint32_t>(grid_.at(i, j, k));
+        ++first_[cell[row] + 1];
+    }
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    auto next = first_;
+    for (std::size_t row = 0; row < granules.owned; ++row) rows_[next[cell[row]]++] = static_cast<std::uint32_t>(row);
+}
+
+spray::Seen DropletSurroundings::seen(Vec3 const& x) const
+{
+    auto const stencil = mapping_.stencil(x);
+    spray::Seen seen;
+    seen.gas_velocity = Mapping::gather(stencil, velocity_);
+    seen.temperature = Mapping::gather(stencil, state_->temperature);
+    seen.vapour_fraction = Mapping::gather(stencil, state_->vapour_fraction);
+    seen.density = Mapping::gather(stencil, state_->density);
+    seen.viscosity = material::viscosity(seen.temperature);
+    seen.solids_fraction = 1 - Mapping::gather(stencil, state_->voidage);
+    for (auto const& nozzle : nozzles_) {
+        if (math::norm(x - nozzle.position) > jet_reach_) continue;
+        // The analytic jet is one in free gas: among granules (a tenth of solids) it is gone, and the cells have its
+        // momentum.
+        double const free = std::max(0.0, 1 - seen.solids_fraction / 0.1);
+        double const jet = free * nozzle.jet_speed(x, seen.density);
+        double const along = math::dot(seen.gas_velocity, nozzle.direction);
+        if (jet > along) seen.gas_velocity += (jet - along) * nozzle.direction;
+    }
+    return seen;
+}
+
+void DropletSurroundings::give(Vec3 const& x, spray::Given const& given)
+{
+    auto const stencil = mapping_.stencil(x);
+    Mapping::spread(stencil, given.vapour / dt_, sources_->mass);
+    Mapping::spread(stencil, given.vapour / dt_, sources_->vapour);
+    Mapping::spread(stencil, given.enthalpy / dt_, sources_->enthalpy);
+    for (std::size_t d = 0; d < 3; ++d) Mapping::spread(stencil, given.momentum[d] / dt_, sources_->force[d]);
+}
+
+void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out) const
+{
+    out.clear();
+    auto const [ci, cj, ck] = cell_of(x);
+    double solids = 0;
+    for (int k = std::max(ck - 1, 0); k <= std::min(ck + 1, grid_.n[2] - 1); ++k)
+        for (int j = std::max(cj - 1, 0); j <= std::min(cj + 1, grid_.n[1] - 1); ++j)
+            for (int i = std::max(ci - 1, 0); i <= std::min(ci + 1, grid_.n[0] - 1); ++i) {
+                Index const cell = grid_.at(i, j, k);
+                for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
+                    std::size_t const row = rows_[r];
+                    Vec3 const away = granules_->position[row] - x;
+                    double const near = (1 - std::abs(away.x) / grid_.spacing.x) *
+                                        (1 - std::abs(away.y) / grid_.spacing.y) *
+                                        (1 - std::abs(away.z) / grid_.spacing.z);
+                    if (std::abs(away.x) >= grid_.spacing.x || std::abs(away.y) >= grid_.spacing.y ||
+                        std::abs(away.z) >= grid_.spacing.z)
+                        continue;
+                    double const d = granules_->diameter[row];
+                    out.push_back({row, near * granules_->count[row], granules_->velocity[row], d});
+                    solids += near * granules_->count[row] * math::pi / 6 * d * d * d;
+                }
+            }
+    if (solids <= 0) {
+        out.clear();
+        return;
+    }
+    // The cells know the whole solids fraction, also of granules beyond this rank's ground.
+    double const fraction = 1 - Mapping::gather(mapping_.stencil(x), state_->voidage);
+    for (auto& target : out) target.chance *= fraction / solids;
+}
+}

@@ -1,0 +1,41 @@
+// What droplets meet: gas and granules around a point, through the same weights as the granules' exchange.
+#pragma once
+
+#include "granum/coupling/exchange.hpp"
+#include "granum/spray/flight.hpp"
+#include "granum/spray/nozzle.hpp"
+
+namespace granum::sim
+{
+class DropletSurroundings final : public spray::Surroundings
+{
+  public:
+    DropletSurroundings(grid::Grid const& grid, coupling::Mapping const& mapping,
+                        std::vector<spray::Nozzle> const& nozzles, par::Slabs const& slabs, int rank);
+
+    //! Takes the fields and granules of this step; exchange is added to `sources` as rates over `dt`.
+    void prepare(gas::Solver const& solver, gas::State const& state, particle::Store const& granules,
+                 gas::Sources& sources, double dt);
+
+    spray::Seen seen(math::Vec3 const& x) const override;
+    void give(math::Vec3 const& x, spray::Given const& given) override;
+    void targets(math::Vec3 const& x, std::vector<spray::Target>& out) const override;
+    bool mine(math::Vec3 const& x) const override { return slabs_.owner(x.x) == rank_; }
+
+  private:
+    std::array<int, 3> cell_of(math::Vec3 const& x) const;
+
+    grid::Grid const& grid_;
+    coupling::Mapping const& mapping_;
+    std::vector<spray::Nozzle> const& nozzles_;
+    par::Slabs const& slabs_;
+    int rank_;
+    double dt_ = 0;
+    std::array<grid::Field, 3> velocity_;
+    gas::State const* state_ = nullptr;
+    gas::Sources* sources_ = nullptr;
+    particle::Store const* granules_ = nullptr;
+    std::vector<std::uint32_t> first_, rows_;  //!< owned granules by cell
+    double jet_reach_ = 0;                     //!< beyond it the cells resolve the jet, m
+};
+}

@@ -1,0 +1,58 @@
+// A droplet parcel in flight: `weight` equal real droplets of solution or suspension.
+#pragma once
+
+#include "granum/material/moist_air.hpp"
+#include "granum/math/vec3.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace granum::spray
+{
+using math::Vec3;
+
+//! The liquid that is sprayed.
+struct Liquid
+{
+    double density = 1000, viscosity = 1e-3, surface_tension = 0.07;  //!< of the feed: kg/m3, Pa s, N/m
+    double solids_density = 1440;                                     //!< kg/m3
+    double solids_fraction = 0.3;                                     //!< kg solids per kg feed
+    double solids_heat_capacity = 1400;                               //!< J/kg/K
+    double solubility = 0;                                            //!< kg solids per kg water; 0: a suspension
+    double molar_mass = 0.1, dissociation = 1;
+    double contact_angle = 0.7;  //!< rad
+    double feed_moisture() const { return (1 - solids_fraction) / solids_fraction; }
+};
+
+struct Droplet
+{
+    std::uint64_t id = 0;
+    Vec3 position, velocity;       //!< m, m/s
+    double weight = 0;             //!< real droplets
+    double water = 0, solute = 0;  //!< kg of one real droplet
+    double temperature = 0;        //!< K, uniform
+    double age = 0, path = 0;      //!< s, m
+
+    //! kg of all real droplets.
+    double solids() const { return weight * solute; }
+    double liquid_water() const { return weight * water; }
+    double mass() const { return weight * (water + solute); }
+
+    //! m, of a real droplet: volumes of water and solids add up to that of the feed at the feed's moisture.
+    double diameter(Liquid const& liquid) const
+    {
+        double const feed = solute / liquid.solids_fraction;  // mass when it left the nozzle
+        double const lost = feed - (water + solute);          // water that has evaporated since
+        double const volume = feed / liquid.density - lost / material::water_density;
+        double const least = solute / liquid.solids_density;
+        return std::cbrt(6 / math::pi * (volume > least ? volume : least));
+    }
+
+    //! J of all real droplets, zero at 0 degC.
+    double enthalpy(Liquid const& liquid) const
+    {
+        return weight * (water * material::heat_capacity_water + solute * liquid.solids_heat_capacity) *
+               (temperature - math::zero_celsius);
+    }
+};
+}

@@ -1,0 +1,149 @@
+#include "granum/spray/flight.hpp"
+
+#include "granum/law/droplet/evaporation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::spray
+{
+namespace air = material;
+
+namespace
+{
+double capture_efficiency(law::capture::Any const& chosen, double stokes, double reynolds)
+{
+    return std::visit([=](auto const& l) { return l(law::capture::Flow{stokes, reynolds}); }, chosen);
+}
+
+//! Drag relaxation rate of a sphere by Schiller and Naumann, 1/s.
+double drag_rate(double diameter, double mass, double slip, Seen const& seen)
+{
+    double const reynolds = seen.density * slip * diameter / seen.viscosity;
+    double const factor = reynolds < 1000 ? 1 + 0.15 * std::pow(reynolds, 0.687) : 0.44 * reynolds / 24;
+    return 3 * math::pi * seen.viscosity * diameter * factor / mass;
+}
+
+//! Held gas: exact relaxation towards it with gravity. Returns the impulse that the gas received from one droplet.
+Vec3 move(Droplet& droplet, double diameter, Seen const& seen, Vec3 const& gravity, double dt)
+{
+    double const mass = droplet.water + droplet.solute;
+    Vec3 const slip = droplet.velocity - seen.gas_velocity;
+    double const rate = drag_rate(diameter, mass, math::norm(slip), seen);
+    double const x = rate * dt, decay = std::exp(-x), gain = -std::expm1(-x) / rate;
+    Vec3 const settled = gravity / rate;  // slip it would settle to
+    Vec3 const before = droplet.velocity;
+    droplet.velocity = seen.gas_velocity + settled + decay * (slip - settled);
+    Vec3 const hop = dt * (seen.gas_velocity + settled) + gain * (slip - settled);
+    droplet.position += hop;
+    droplet.path += math::norm(hop);
+    droplet.age += dt;
+    return mass * (before + dt * gravity - droplet.velocity);
+}
+
+void lose(Losses& losses, Droplet const& droplet, Liquid const& liquid)
+{
+    losses.solids += droplet.solids();
+    losses.water += droplet.liquid_water();
+    losses.enthalpy += droplet.enthalpy(liquid);
+}
+}
+
+Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& seen, double slip, double dt)
+{
+    Liquid const& liquid = settings.liquid;
+    double const before = droplet.enthalpy(liquid);
+    double const moisture = droplet.water / droplet.solute;
+    double const activity =
+        law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation);
+    law::droplet::Air const gas{seen.temperature, seen.vapour_fraction, settings.pressure};
+    law::droplet::Drop drop{droplet.diameter(liquid), droplet.temperature, activity, slip};
+    auto const rates = law::droplet::evaporation(drop, gas);
+    drop.temperature += 0.05;
+    auto const warmer = law::droplet::evaporation(drop, gas);
+    // Temperature by one linearised implicit step: small droplets relax faster than dt.
+    auto const net = [](law::droplet::Rates const& r, double t) {
+        return r.heat - r.mass * air::evaporation_enthalpy(t);
+    };
+    double const gain = net(rates, droplet.temperature);
+    double const slope = std::min(0.0, (net(warmer, droplet.temperature + 0.05) - gain) / 0.05);
+    double const capacity = droplet.water * air::heat_capacity_water + droplet.solute * liquid.solids_heat_capacity;
+    double const rise = gain * dt / (capacity - slope * dt);
+    // The mass leaves at the rate of the temperature in mid-step.
+    double const mass_slope = (warmer.mass - rates.mass) / 0.05;
+    double const leaving = std::clamp((rates.mass + 0.5 * rise * mass_slope) * dt, -droplet.water, droplet.water);
+    double const vapour = droplet.weight * leaving;
+    double const enthalpy = vapour * air::vapour_enthalpy(droplet.temperature);
+    droplet.water -= leaving;
+    droplet.temperature += rise;
+    // Whatever the droplet's enthalpy changed by, beyond the vapour's, was heat of the gas.
+    double const heat = droplet.enthalpy(liquid) - before + enthalpy;
+    return {.vapour = vapour, .enthalpy = enthalpy - heat, .momentum = vapour * droplet.velocity};
+}
+
+void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometry::Chamber const& chamber,
+         Surroundings& around, double dt, std::uint32_t step, Outcome& outcome)
+{
+    Liquid const& liquid = settings.liquid;
+    double const dust = settings.end_moisture * liquid.feed_moisture();
+    std::vector<Target> targets;
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < droplets.size(); ++n) {
+        Droplet droplet = droplets[n];
+        base::Random random(settings.seed, base::Purpose::capture, droplet.id, step);
+        double left = dt;
+        bool gone = false;
+        while (left > 0 && !gone) {
+            Seen const seen = around.seen(droplet.position);
+            double const fastest = std::max(math::norm(droplet.velocity), math::norm(seen.gas_velocity));
+            double const h = std::min(left, settings.longest_hop / std::max(fastest, 1e-3));
+            double const diameter = droplet.diameter(liquid);
+            Vec3 const place = droplet.position;
+            double const slip = math::norm(droplet.velocity - seen.gas_velocity);
+            Given given = evaporate(droplet, settings, seen, slip, h);
+            outcome.evaporated += given.vapour;
+            given.momentum += droplet.weight * move(droplet, diameter, seen, settings.gravity, h);
+            around.give(place, given);
+            left -= h > 0.999999 * left ? left : h;
+
+            if (!chamber.inside(droplet.position)) {
+                lose(droplet.position.z >= chamber.height() ? outcome.overspray : outcome.walls, droplet, liquid);
+                gone = true;
+            } else if (droplet.water < dust * droplet.solute) {
+                lose(outcome.overspray, droplet, liquid);  // dried in flight: dust
+                gone = true;
+            } else if (seen.solids_fraction > 1e-6) {
+                around.targets(place, targets);
+                double total = 0;
+                for (Target& target : targets) {
+                    double const speed = math::norm(droplet.velocity - target.velocity);
+                    double const stokes =
+                        liquid.density * diameter * diameter * speed / (18 * seen.viscosity * target.diameter);
+                    double const reynolds = seen.density * speed * target.diameter / seen.viscosity;
+                    double const cross = math::pi / 4 * (target.diameter + diameter) * (target.diameter + diameter);
+                    target.chance *= cross * speed * capture_efficiency(settings.capture, stokes, reynolds);
+                    total += target.chance;
+                }
+                if (total > 0 && random.uniform() < -std::expm1(-total * h)) {
+                    double pick = random.uniform() * total;
+                    std::size_t choice = 0;
+                    while (choice + 1 < targets.size() && (pick -= targets[choice].chance) > 0) ++choice;
+                    outcome.hits.push_back(
+                        {droplet, targets[choice].row, math::norm(droplet.velocity - targets[choice].velocity)});
+                    gone = true;
+                }
+            }
+            if (!gone && left > 0 && !around.mine(droplet.position)) {
+                // Crosses to a neighbour in mid-step: it rests there until the next step (at most dt behind).
+                left = 0;
+            }
+        }
+        if (gone) continue;
+        if (around.mine(droplet.position))
+            droplets[kept++] = droplet;
+        else
+            outcome.leaving.push_back(droplet);
+    }
+    droplets.resize(kept);
+}
+}
