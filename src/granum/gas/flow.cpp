@@ -82,6 +82,7 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
 {
     Inside& in = *inside_;
     base::require(dt > 0, "gas: the step is {} s", dt);
+    in.check(sources);
     Balance balance;
     state.voidage = voidage;
     in.refresh({&state.voidage});

@@ -34,8 +34,8 @@ struct Settings
     std::optional<Inlet> inlet;  //!< none: a closed or periodic box
     bool outlet = true;          //!< open top at `pressure`
     double pressure = 101325;    //!< Pa
-    //! Pressure drop per velocity of what covers the outlet (filter, duct), Pa s/m. A few Pa even out the outflow and
-    //! keep heavier gas from falling in; 0 leaves the top open to still air.
+    //! Pressure drop per velocity of what covers the outlet (filter, duct), Pa s/m. It evens out the outflow and keeps
+    //! heavier gas from falling in; 0 leaves the top open to still air. Pressures count from the mean below the filter.
     double outlet_resistance = 30;
     Vec3 gravity{0, 0, -9.81};
     std::optional<double> density, viscosity;                          //!< constant instead of moist air

@@ -159,6 +159,18 @@ std::array<double, 6> Solver::Inside::viscous_reach(FaceRow const& row, std::siz
     return reach;
 }
 
+void Solver::Inside::check(Sources const& sources) const
+{
+    // What is given to a closed cell would be lost without a word.
+    grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
+        if (grid.open(c)) return;
+        bool const none = sources.mass[c] == 0 && sources.vapour[c] == 0 && sources.enthalpy[c] == 0 &&
+                          sources.heat_value[c] == 0 && sources.heat_coefficient[c] == 0;
+        base::require(none, "gas: a source lies in cell ({}, {}, {}), which is closed by the wall", i + grid.shift, j,
+                      k);
+    });
+}
+
 SharedSources Solver::Inside::share(Sources const& sources) const
 {
     SharedSources shared{sources.drag_coefficient, sources.mass, sources.force};

@@ -115,5 +115,6 @@ struct Solver::Inside
     void carry_vapour_and_heat(State& state, Sources const& sources, double dt, Balance& balance);
     void derive(State& state) const;
     void check(State const& state) const;
+    void check(Sources const& sources) const;
 };
 }

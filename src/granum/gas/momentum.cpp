@@ -40,6 +40,17 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
     Field viscous = grid.make_field();
     for (Index c = 0; c < viscous.size(); ++c) viscous[c] = grid.open(c) ? viscosity(state.temperature[c]) : 0;
 
+    std::array<double, 2> outflow{};  // through the outlet: velocity times area, area
+    if (top) {
+        for (FaceRow const& face : faces[2]) {
+            if (!face.outlet) continue;
+            outflow[0] += u[2][face.face] * area[2][face.face];
+            outflow[1] += area[2][face.face];
+        }
+        comm.sum(outflow);
+    }
+    double const mean_outflow = outflow[1] > 0 ? outflow[0] / outflow[1] : 0;
+
     FaceField constant = grid.make_face_field();  // right side without convection
     for (std::size_t d = 0; d < 3; ++d)
         for (std::size_t r = 0; r < faces[d].size(); ++r) {
@@ -52,6 +63,7 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
             double drag = 0, push = 0;
             if (face.outlet) {
                 drag = settings.outlet_resistance * area[d][q];
+                push = drag * mean_outflow;
             } else {
                 double const above = weights.lower[d][q], below = weights.upper[d][low];
                 drag = below * sources.drag_coefficient[low] + above * sources.drag_coefficient[q];

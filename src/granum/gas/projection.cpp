@@ -64,6 +64,7 @@ int Solver::Inside::project(State& state, SharedSources const& sources, Field co
     // A flux error that moves a cell's mass by less than this fraction is corrected in the next step anyway.
     double const floor = 0.01 * settings.tolerance * std::sqrt(comm.sum(scale)) / dt;
     auto const outcome = pressure.solve(system, correction, settings.tolerance, floor);
+    if (!std::isfinite(outcome.residual)) check(state);  // names what is not finite on the rank that has it
     base::require(std::isfinite(outcome.residual), "gas: the pressure equation has a residual that is not finite");
 
     for (std::size_t d = 0; d < 3; ++d)
