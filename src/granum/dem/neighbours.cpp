@@ -68,32 +68,31 @@ void NeighbourSearch::pairs(particle::Store const& granules, double reach, doubl
         if (norm2(x[a] - x[b]) >= limit * limit || id[a] == id[b]) return;
         out.push_back(id[a] < id[b] ? PairRows{a, b} : PairRows{b, a});
     };
-    // Half of the 26 neighbours: each pair of cells is visited from one side.
-    constexpr std::array<std::array<int, 3>, 13> half{{{1, 0, 0},
-                                                       {-1, 1, 0},
-                                                       {0, 1, 0},
-                                                       {1, 1, 0},
-                                                       {-1, -1, 1},
-                                                       {0, -1, 1},
-                                                       {1, -1, 1},
-                                                       {-1, 0, 1},
-                                                       {0, 0, 1},
-                                                       {1, 0, 1},
-                                                       {-1, 1, 1},
-                                                       {0, 1, 1},
-                                                       {1, 1, 1}}};
-    std::size_t cell = 0;
+    // Half of the 26 neighbours, so that each pair of cells is visited from one side. Cells that follow each other
+    // along x hold consecutive entries of rows_: the next cell of the own row, and three cells of each of four other
+    // rows.
+    constexpr std::array<std::array<int, 2>, 4> half{{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+    auto const start_of = [&](int i, int j, int k) {
+        return start_[static_cast<std::size_t>((k * cells_[1] + j) * cells_[0] + i)];
+    };
     for (int k = 0; k < cells_[2]; ++k)
         for (int j = 0; j < cells_[1]; ++j)
-            for (int i = 0; i < cells_[0]; ++i, ++cell)
-                for (std::uint32_t p = start_[cell]; p < start_[cell + 1]; ++p) {
-                    for (std::uint32_t q = p + 1; q < start_[cell + 1]; ++q) consider(rows_[p], rows_[q]);
-                    for (auto const& [di, dj, dk] : half) {
-                        int const i2 = i + di, j2 = j + dj, k2 = k + dk;
-                        if (i2 < 0 || i2 >= cells_[0] || j2 < 0 || j2 >= cells_[1] || k2 >= cells_[2]) continue;
-                        auto const other = static_cast<std::size_t>((k2 * cells_[1] + j2) * cells_[0] + i2);
-                        for (std::uint32_t q = start_[other]; q < start_[other + 1]; ++q) consider(rows_[p], rows_[q]);
-                    }
+            for (int i = 0; i < cells_[0]; ++i) {
+                auto const begin = start_of(i, j, k), end = start_of(i + 1, j, k);
+                if (begin == end) continue;
+                int const first = std::max(i - 1, 0), behind = std::min(i + 2, cells_[0]);
+                std::array<std::array<std::uint32_t, 2>, 4> runs{};
+                for (std::size_t n = 0; n < 4; ++n) {
+                    int const j2 = j + half[n][0], k2 = k + half[n][1];
+                    if (j2 < 0 || j2 >= cells_[1] || k2 >= cells_[2]) continue;
+                    runs[n] = {start_of(first, j2, k2), start_of(behind, j2, k2)};
                 }
+                auto const own_end = start_of(behind, j, k);
+                for (auto p = begin; p < end; ++p) {
+                    for (auto q = p + 1; q < own_end; ++q) consider(rows_[p], rows_[q]);
+                    for (auto const& [low, high] : runs)
+                        for (auto q = low; q < high; ++q) consider(rows_[p], rows_[q]);
+                }
+            }
 }
 }

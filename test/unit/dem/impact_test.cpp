@@ -216,4 +216,21 @@ TEST(SpinningSphere, against_its_like_does_as_on_a_plane)
         EXPECT_NEAR(scene.granules.spin[right].z, row.spin_after, row.spin_tolerance);
     }
 }
+
+TEST(SpinningSphere, against_one_five_times_as_large_and_far_heavier_does_as_on_a_plane)
+{
+    scene::Stuff const& stuff = scene::aluminium_alloy_oblique;
+    double const radius = 0.1, large = 0.5;
+    scene::Scene scene(stuff, {.restitution = 0.5, .sliding_friction = 0.4});
+    scene.settings.laws.lever = dem::Lever::radius;
+    scene.add({0, 0, radius * (1 + 1e-9)}, {0, 0, -0.2}, radius, stuff.density, {0, -6, 0});
+    scene.add({0, 0, -large}, {}, large, 1000 * stuff.density);
+    scene.prepare();
+    scene::run_impact(scene,
+                      scene::hertz_time(0.5 * wall_modulus(stuff), 0.5 / 6, sphere_mass(stuff, radius), 0.2) / 4000);
+    auto const row = scene.row(0);
+    EXPECT_NEAR(scene.granules.velocity[row].x, -0.12, 1e-3);
+    EXPECT_NEAR(-scene.granules.spin[row].y, 3, 5e-3);
+    EXPECT_NEAR(scene.granules.velocity[row].z, 0.1, 5e-4);
+}
 }
