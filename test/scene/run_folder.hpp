@@ -100,7 +100,8 @@ inline nlohmann::json run_summary(RunFolderScene const& scene)
     return {
         {"schema", 1},
         {"title", scene.title},
-        {"run", {{"wall_s", 412.3}, {"simulated_s", 3.0}, {"steps", 120000}, {"ranks", 2}, {"state", "finished"}}},
+        {"ended", "done"},
+        {"run", {{"wall_s", 412.3}, {"simulated_s", 3.0}, {"steps", 120000}, {"ranks", 2}}},
         {"granules", {{"parcels", scene.granules}, {"represented", 6.12e6}, {"mass_kg", 1.0}}},
         {"gas", {{"cells", 16200}}},
         {"balance",
@@ -125,8 +126,14 @@ inline nlohmann::json run_summary(RunFolderScene const& scene)
         {"events", {{"count", scene.events}}},
         {"product",
          {{"validated", false},
-          {"porosity", {{"mean", 0.361}, {"p10", 0.334}, {"p50", 0.360}, {"p90", 0.389}}},
-          {"size", {{"d10", 0.6001e-3}, {"d50", 0.6006e-3}, {"d90", 0.6011e-3}}}}},
+          {"porosity",
+           {{"mean", 0.361},
+            {"p10", 0.334},
+            {"p50", 0.360},
+            {"p90", 0.389},
+            {"interval_low", 0.23},
+            {"interval_high", 0.49}}},
+          {"size_m", {{"d10", 0.6001e-3}, {"d50", 0.6006e-3}, {"d90", 0.6011e-3}}}}},
         {"performance",
          {{"granule_steps_per_s", 3.1e6},
           {"share",
@@ -147,15 +154,17 @@ inline void write_run_series(std::string const& path, RunFolderScene const& scen
                                    {"outlet_temperature", "K"},
                                    {"outlet_humidity", "kg/kg"},
                                    {"drying_potential", "1"},
-                                   {"bed_pressure_drop", "Pa"},
-                                   {"water_sprayed", "kg"},
-                                   {"water_evaporated", "kg"}});
+                                   {"pressure_drop", "Pa"},
+                                   {"sprayed_water", "kg"},
+                                   {"evaporated_water", "kg"},
+                                   {"bed_moisture", "kg/kg"},
+                                   {"bed_height", "m"}});
     for (int row = 0; row < scene.rows; ++row) {
         double const t = 0.005 * row;
         double const wander = 0.2 * std::sin(3 * t) + 0.03 * number.normal();
         series.append(std::vector<double>{t, 338.5 + 0.3 * wander, 338.6 + wander, 0.01385 - 1e-4 * wander,
-                                          0.716 + 0.005 * wander, 331 + 40 * number.normal(), 2.333e-4 * t,
-                                          2.31e-4 * t});
+                                          0.716 + 0.005 * wander, 331 + 40 * number.normal(), 2.333e-4 * t, 2.31e-4 * t,
+                                          1.1e-3 + 2e-5 * wander, 0.17 + 0.01 * number.normal()});
     }
 }
 
@@ -168,13 +177,16 @@ inline void write_run_events(std::string const& path, RunFolderScene const& scen
                                    {"moisture_at_impact", "kg/kg", "water per solids of the droplet at impact"},
                                    {"drying_potential", "1", "local, at impact"},
                                    {"drying_time", "s", "from impact to dry"},
+                                   {"mean_drying_potential", "1", "mean over the drying time"},
+                                   {"normal_speed", "m/s", "of the impact"},
                                    {"initial", "1", "1: placed by the quasi-steady start"},
                                    {"porosity", "1", "of the layer element"}});
     for (int event = 0; event < scene.events; ++event) {
         double const eta = 0.68 + 0.05 * number.normal();
         events.append(std::vector<double>{1.0 * event, 1e-10 * std::exp(number.normal()),
                                           40e-6 * std::exp(0.47 * number.normal()), 2.1 + 0.15 * number.normal(), eta,
-                                          0.05 * std::exp(0.8 * number.normal()), event % 10 == 0 ? 1.0 : 0.0,
+                                          0.05 * std::exp(0.8 * number.normal()), eta + 0.01 * number.normal(),
+                                          8 * std::exp(0.4 * number.normal()), event % 10 == 0 ? 1.0 : 0.0,
                                           0.70 - 0.5 * eta + 0.02 * number.normal()});
     }
 }

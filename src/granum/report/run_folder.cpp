@@ -91,7 +91,9 @@ RunFolder read_run(std::string const& path)
     };
     attempt("summary.json", [&](std::string const& file) { run.summary = nlohmann::json::parse(io::read_text(file)); });
     attempt("timeseries.csv", [&](std::string const& file) { run.series = io::read_series(file); });
-    attempt("events.h5", [&](std::string const& file) { run.events = io::read_events(file); });
+    // A case without a spray has no events to miss.
+    if (run.summary.empty() || run.summary.contains("spray"))
+        attempt("events.h5", [&](std::string const& file) { run.events = io::read_events(file); });
     attempt("snapshots.h5", [&](std::string const& file) { run.snapshot = io::read_snapshot(file); });
     attempt("case.toml", [&](std::string const& file) { run.resolved_case = io::read_text(file); });
     auto const& listed = run.at("warnings");

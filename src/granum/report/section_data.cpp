@@ -75,7 +75,7 @@ std::vector<CurveSpec> const& curve_specs()
          "",
          "What is left of the air's capacity to dry: 1 at the inlet, 0 when saturated."},
         {"bed pressure drop (Pa)",
-         {"bed_pressure_drop"},
+         {"pressure_drop"},
          {"simulated"},
          same,
          "bed.weight_over_area_Pa",
@@ -83,13 +83,29 @@ std::vector<CurveSpec> const& curve_specs()
          "Pa",
          "Pressure lost in the bed; swings come from bubbles, the mean carries the weight of a fluidised bed."},
         {"water (g)",
-         {"water_sprayed", "water_evaporated"},
+         {"sprayed_water", "evaporated_water"},
          {"sprayed", "evaporated"},
          to_thousandth,
          "",
          "",
          "g",
          "Water sprayed and evaporated since the start; parallel lines mean a steady process."},
+        {"water on granules (g/kg)",
+         {"bed_moisture"},
+         {"simulated"},
+         to_thousandth,
+         "",
+         "",
+         "g/kg",
+         "Liquid water in open deposits per dry mass of the bed; it levels off when drying keeps up with the spray."},
+        {"bed height (mm)",
+         {"bed_height"},
+         {"simulated"},
+         to_thousandth,
+         "",
+         "",
+         "mm",
+         "Height of the bed; it swings with the bubbles that break through."},
     };
     return all;
 }
@@ -183,11 +199,16 @@ std::string events_section(RunFolder const& run)
     out += histogram(events_of(run, "drying_potential"), {"local drying potential at impact"}, "",
                      "Drying potential of the gas around the granule at impact; its spread is what a model of the "
                      "whole apparatus cannot see.");
+    out += histogram(events_of(run, "mean_drying_potential"), {"local drying potential, mean while drying"}, "",
+                     "The same, averaged over the time each deposit took to dry: what the porosity model is given.");
     out +=
         histogram(events_of(run, "moisture_at_impact"), {"water per solids at impact (kg/kg)"}, "kg/kg",
                   "State of the droplets when they hit; less water than in the feed means that they dried in flight.");
     out += histogram(events_of(run, "droplet_diameter", {1e6, 0}), {"droplet diameter at impact (µm)", true}, "µm",
                      "Size of the droplets that built the layer.");
+    out += histogram(
+        events_of(run, "normal_speed"), {"impact speed, normal (m/s)", true}, "m/s",
+        "Speed of the droplets towards the surface they hit; fast large droplets spread more and may splash.");
     return section("events", "How the deposits dried", out + "</div>");
 }
 
@@ -226,7 +247,7 @@ std::string porosity_section(RunFolder const& run)
            row("10 % of the granules are below", quantity(p10, "", 4)) +
            row("median", quantity(run.value("product.porosity.p50"), "", 4)) +
            row("90 % of the granules are below", quantity(p90, "", 4));
-    auto const low = run.value("product.porosity.low"), high = run.value("product.porosity.high");
+    auto const low = run.value("product.porosity.interval_low"), high = run.value("product.porosity.interval_high");
     if (low && high) out += row("95 % interval of the mean", number(*low, 3) + " to " + number(*high, 3));
     return section("porosity", "Predicted porosity", out + "</tbody></table>");
 }
@@ -253,7 +274,7 @@ std::string product_section(RunFolder const& run)
         if (dry > 0) moisture = water / dry;
     }
     auto size = [&](char const* key, double fallback) -> std::optional<double> {
-        if (auto const value = run.value(std::string("product.size.") + key)) return 1000 * *value;
+        if (auto const value = run.value(std::string("product.size_m.") + key)) return 1000 * *value;
         return d ? std::optional(fallback) : std::nullopt;
     };
     if (auto const value = run.value("product.residual_moisture")) moisture = value;

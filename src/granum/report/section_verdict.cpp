@@ -56,11 +56,13 @@ Light judge(std::optional<double> deviation, double bar, double patience)
     return size <= bar ? Light::good : size <= patience * bar ? Light::watch : Light::bad;
 }
 
-Check ledger(RunFolder const& run, char const* what, double bar, std::string const& meaning)
+//! @param bar allowed error where the summary states none
+Check ledger(RunFolder const& run, std::string const& what, double bar, std::string const& meaning)
 {
-    auto const error = run.value(fmt::format("ledger.{}.relative_error", what));
-    return {fmt::format("{} ledger", what), error ? fmt::format("{:.1e}", *error) : not_available,
-            fmt::format("{:.0e}", bar), judge(error, bar, 10), meaning};
+    auto const error = run.value("ledger." + what + ".relative_error");
+    bar = run.value("ledger." + what + ".bar").value_or(bar);
+    return {what + " ledger", error ? fmt::format("{:.1e}", *error) : not_available, fmt::format("{:.0e}", bar),
+            judge(error, bar, 10), meaning};
 }
 
 std::optional<double> deviation(std::optional<double> value, std::optional<double> reference)
@@ -72,9 +74,12 @@ std::optional<double> deviation(std::optional<double> value, std::optional<doubl
 //! Water evaporated over water sprayed in the last two thirds of the run.
 std::optional<double> evaporated_share(RunFolder const& run)
 {
+    auto const last_in = run.value("water.sprayed_last_two_thirds_kg"),
+               last_out = run.value("water.evaporated_last_two_thirds_kg");
+    if (last_in && last_out && *last_in > 0) return *last_out / *last_in;
     auto const* time = run.column({"time"});
-    auto const* sprayed = run.column({"water_sprayed"});
-    auto const* evaporated = run.column({"water_evaporated"});
+    auto const* sprayed = run.column({"sprayed_water"});
+    auto const* evaporated = run.column({"evaporated_water"});
     if (!time || !sprayed || !evaporated || time->size() < 3) return std::nullopt;
     std::size_t first = 0;
     while (first + 1 < time->size() && (*time)[first] < time->front() + (time->back() - time->front()) / 3) ++first;
@@ -94,6 +99,8 @@ std::vector<Check> checks(RunFolder const& run)
     out.push_back(ledger(run, "solids", 1e-9, "solids in = solids on granules, walls, in flight and lost"));
     out.push_back(ledger(run, "water", 1e-9, "water in = water in gas and deposits, and out"));
     out.push_back(ledger(run, "energy", 1e-6, "enthalpy in = enthalpy stored and out"));
+    if (run.value("ledger.momentum.relative_error"))
+        out.push_back(ledger(run, "momentum", 1e-9, "force on the gas = force on granules and droplets, turned round"));
     out.push_back(agreement("bed pressure drop",
                             deviation(run.value("bed.pressure_drop_Pa"), run.value("bed.weight_over_area_Pa")),
                             "against the weight of the bed over its area: is all of it fluidised?"));
@@ -214,10 +221,11 @@ std::string verdict_section(RunFolder const& run)
     std::string line;
     for (auto const& part : how) line += (line.empty() ? "" : " · ") + part;
     if (!line.empty()) out += fmt::format("<p class=\"how\">{}</p>\n", escape(line));
-    auto const state = run.text("run.state", "");
-    if (state == "interrupted" || state == "stopped")
-        out +=
-            "<p class=\"how\"><b>The run was stopped before its end; everything below is up to that moment.</b></p>\n";
+    auto const ended = run.text("ended", "");
+    if (ended != "done")
+        out += fmt::format(
+            "<p class=\"how\"><b>The run did not reach its end{}; everything below is up to that moment.</b></p>\n",
+            escape(ended.empty() ? "" : " (" + ended + ")"));
 
     auto const mean = run.value("product.porosity.mean"), p10 = run.value("product.porosity.p10"),
                p90 = run.value("product.porosity.p90");

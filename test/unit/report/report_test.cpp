@@ -153,13 +153,13 @@ TEST(Report, of_a_run_stopped_at_once_says_that_there_are_no_events)
     scene::write_run_folder(folder.path(), {.granules = 50, .events = 0, .rows = 1});
     auto summary = scene::run_summary(small);
     summary["product"].erase("porosity");
-    summary["run"]["state"] = "interrupted";
+    summary["ended"] = "stopped";
     summary["result"]["eta_global"] = nullptr;
     io::replace_text(folder / "summary.json", summary.dump());
     auto const page = page_of(folder.path());
     EXPECT_TRUE(holds(page, "No events yet"));
     EXPECT_TRUE(holds(page, "No product property yet"));
-    EXPECT_TRUE(holds(page, "stopped before its end"));
+    EXPECT_TRUE(holds(page, "The run did not reach its end (stopped)"));
 }
 
 TEST(Report, of_a_missing_folder_is_an_error_that_names_it)
