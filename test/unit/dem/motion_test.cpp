@@ -93,7 +93,7 @@ TEST(EnergyAudit, of_a_collapse_of_a_thousand_granules_is_closed)
     auto scene = collapse(1000, {.restitution = 0.7, .sliding_friction = 0.4, .rolling_friction = 0.02});
     scene.prepare();
     double const before = scene.kinetic_energy() + scene.potential_energy();
-    scene.run(30'000, 5e-6);
+    scene.run(15'000, 1e-5);
     auto const& watch = scene.engine->watch();
     double const after = scene.kinetic_energy() + scene.potential_energy() + watch.elastic + watch.dissipated;
     double const moved = before - scene.potential_energy();
@@ -106,7 +106,7 @@ TEST(Watch, sees_the_walls_carry_the_weight_of_a_settled_bed)
 {
     auto scene = collapse(500, {.restitution = 0.3, .sliding_friction = 0.4, .rolling_friction = 0.02});
     scene.prepare();
-    scene.run(20'000, 2e-5);
+    scene.run(8'000, 2e-5);
     double const weight = 500 * scene.granules.mass[0] * g;
     EXPECT_NEAR(scene.engine->watch().wall_force.z / weight, 1, 0.01);
     EXPECT_NEAR(scene.engine->watch().wall_force.x / weight, 0, 0.01);
