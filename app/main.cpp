@@ -4,8 +4,7 @@
 #include "granum/base/error.hpp"
 #include "granum/base/type_list.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -41,7 +40,9 @@ bool is_unknown_verb(CLI::App const& program, int argc, char** argv)
     std::vector<std::string> verbs;
     for (auto const* verb : program.get_subcommands({})) verbs.push_back(verb->get_name());
     if (std::find(verbs.begin(), verbs.end(), argv[1]) != verbs.end()) return false;
-    fmt::print(stderr, "granum: \"{}\" is not a verb\n  known: {}\n", argv[1], fmt::join(verbs, ", "));
+    std::string known;
+    for (auto const& verb : verbs) known += (known.empty() ? "" : ", ") + verb;
+    fmt::print(stderr, "granum: \"{}\" is not a verb\n  known: {}\n", argv[1], known);
     if (auto const near = base::nearest_name(argv[1], verbs); !near.empty())
         fmt::print(stderr, "  did you mean \"granum {}\"?\n", near);
     return true;

@@ -80,7 +80,7 @@ TEST_F(Program, refuses_each_wrong_case_in_one_screen_and_leaves_nothing)
     EXPECT_EQ(cases.size(), 12u);
     for (auto const& wrong : cases)
         for (auto const* verb : {"check ", "run "}) {
-            auto const [status, text] = call(verb + ("'" + wrong.path.string() + "'"));
+            auto const [status, text] = call(std::string(verb) + "'" + wrong.path.string() + "'");
             auto const place = wrong.path.string() + ":" + std::to_string(wrong.line) + ": ";
             EXPECT_EQ(status, 2) << verb << wrong.path;
             EXPECT_TRUE(text.starts_with(place)) << "expected " << place << " got\n" << text;
