@@ -289,8 +289,10 @@ std::string product_section(RunFolder const& run)
     out += row("residual moisture (liquid water per dry granule)",
                moisture ? quantity(1000 * *moisture, "g/kg", 3) : not_available);
     out += row("batch", quantity(run.value("granules.mass_kg"), "kg", 4));
-    out += row("solids dried on the granules",
-               run.value("product.layer_kg") ? quantity(1000 * *run.value("product.layer_kg"), "g", 3) : not_available);
+    double layer = 0;
+    if (run.snapshot)
+        for (double const mass : run.snapshot->granules.layer_mass) layer += std::isfinite(mass) ? mass : 0;
+    out += row("dried layer on the granules", run.snapshot ? quantity(1000 * layer, "g", 3) : not_available);
     return section("product", "Size and moisture of the product", out + "</tbody></table></div></div>");
 }
 }
