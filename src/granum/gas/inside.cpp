@@ -60,13 +60,12 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells, par::Communicato
     for (std::size_t d = 0; d < 3; ++d) {
         weights.lower[d] = grid.make_field();
         weights.upper[d] = grid.make_field();
-        grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
+        grid::for_each_cell(grid, [&](int, int, int k, Index c) {
             bool const at_plate = d == 2 && k == 0 && !grid.periodic[2];
             if (area[d][c] == 0 || at_plate) return;
             inner[d][c] = 1;
             face_volume[d][c] = 0.5 * (grid.open_volume[c] + grid.open_volume[before(c, d)]);
             faces[d].push_back({c, false, plate && d != 2 && k == 0});
-            static_cast<void>(i + j);
         });
         if (d == 2 && top)
             for (int j = 0; j < ny; ++j)

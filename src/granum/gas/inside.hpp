@@ -78,7 +78,6 @@ struct Solver::Inside
     Index next(Index at, std::size_t d) const { return at + static_cast<Index>(grid.strides()[d]); }
     Index before(Index at, std::size_t d) const { return at - static_cast<Index>(grid.strides()[d]); }
     void refresh(std::initializer_list<Field*> fields) const;
-    bool periodic(std::size_t d) const { return grid.periodic[d]; }
 
     double viscosity(double temperature) const;
     double equation_of_state(double pressure, double temperature, double vapour_fraction) const;

@@ -13,7 +13,7 @@ namespace granum::gas
 {
 namespace
 {
-constexpr double sweep_tolerance = 1e-11;  // change of a sweep over the largest value
+constexpr double sweep_tolerance = 1e-10;  // change of a sweep over the largest value
 constexpr int most_sweeps = 500;
 }
 
