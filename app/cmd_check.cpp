@@ -37,7 +37,7 @@ void print_bed(sim::Case const& data, sim::Forecast const& f)
                      1e3 * f.parcel_diameter, f.granules / static_cast<double>(f.parcels)));
     if (f.bed_height > 0) line("settled bed", fmt::format("{:.1f} mm high at 60 % solids", 1e3 * f.bed_height));
     line("overlap",
-         fmt::format("about {:.1f} % of a radius in a contact at {:.2g} m/s", 100 * f.overlap, f.contact_speed));
+         fmt::format("about {:.1f} % of a radius in a contact at {:.2g} m/s", 100 * f.overlap, f.overlap_speed));
     double least = f.bounds.front().seconds;
     for (auto const& bound : f.bounds) least = std::min(least, bound.seconds);
     line("granule step", fmt::format("{:.3g} s{}", f.granule_step,
@@ -79,8 +79,8 @@ int check(std::string const& path)
                                     100 * b.outlet_relative_humidity, b.wet_bulb - 273.15, b.eta));
     }
     line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));
-    line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)",
-                                  duration(f.wall_time), data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
+    line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)", duration(f.wall_time),
+                                  data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
     for (auto const& warning : resolved.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("the case can be run\n");
     return 0;

@@ -60,6 +60,7 @@ void end_at_once()
     setenv("GRANUM_TERMINAL", terminal ? "1" : "0", 1);
     for (auto const* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}) setenv(name, "1", 1);
     setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers forbid it, with a warning per run
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);  // waiting ranks leave the core to whoever has work
     std::vector<std::string> words{"mpirun", "--quiet",         "-n",   std::to_string(ranks), "--bind-to",
                                    "none",   "--oversubscribe", program};
     words.insert(words.end(), arguments.begin(), arguments.end());

@@ -18,7 +18,8 @@ double Drying::coverage(std::vector<Deposit> const& deposits, double count, doub
     return std::min(1.0, area / (count * math::pi * diameter * diameter));
 }
 
-double Drying::cap_rate(Deposit const& deposit, law::deposit::Film film, double saturation) const
+Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, double saturation, double sherwood,
+                              double diameter) const
 {
     Liquid const& liquid = settings_.liquid;
     double const moisture = deposit.water / deposit.solute;
@@ -29,8 +30,10 @@ double Drying::cap_rate(Deposit const& deposit, law::deposit::Film film, double 
     double const volume =
         (deposit.water / air::water_density + deposit.solute / liquid.solids_density) / deposit.weight;
     double const angle = law::wetting::pinned_angle(volume, deposit.base_radius);
-    return law::deposit::cap_rate(deposit.base_radius, angle, film) *
-           law::deposit::falling_rate(moisture, settings_.critical_moisture);
+    double const falling = law::deposit::falling_rate(moisture, settings_.critical_moisture);
+    double const area = law::wetting::cap_area(deposit.base_radius, angle);
+    return {falling * law::deposit::cap_rate(deposit.base_radius, angle, film),
+            falling * law::deposit::boundary_layer_rate(sherwood, diameter, area, film)};
 }
 
 void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
@@ -38,7 +41,7 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
 {
     Liquid const& liquid = settings_.liquid;
     evaporated.assign(granules.owned, 0.0);
-    std::vector<double> caps;
+    std::vector<Limits> limit;
     for (std::size_t row = 0; row < granules.owned; ++row) {
         auto& open = deposits.on(granules.id[row]);
         if (open.empty()) continue;
@@ -48,11 +51,11 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
         law::deposit::Film const film =
             law::deposit::film(temperature, 1.0, seen.temperature[row], seen.vapour_fraction[row], settings_.pressure);
 
-        caps.clear();
+        limit.clear();
         double sum = 0;
         for (auto const& deposit : open) {
-            caps.push_back(cap_rate(deposit, film, saturation));
-            sum += deposit.weight * caps.back();
+            limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter));
+            sum += deposit.weight * limit.back().cap;
         }
         double const full =
             law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
@@ -61,9 +64,9 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
         for (std::size_t k = 0; k < open.size(); ++k) {
             Deposit& deposit = open[k];
             double const foot = math::pi * deposit.base_radius * deposit.base_radius;
-            double const layer = law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, foot, film);
-            double const rate =
-                std::visit([&](auto const& law) { return law(caps[k], sum / count, layer, full); }, settings_.combine);
+            double const rate = std::visit(
+                [&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
+                settings_.combine);
             double const dry = settings_.end_moisture * liquid.feed_moisture * deposit.solute;
             double const leaving = deposit.weight * rate * dt;
             double fraction = 1;  // of the step until the deposit is dry

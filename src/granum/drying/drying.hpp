@@ -56,9 +56,14 @@ class Drying
     //! Wet fraction of the surface of a real granule under these deposits, at most 1.
     static double coverage(std::vector<Deposit> const& deposits, double count, double diameter);
 
-    //! kg/s that one cap loses if alone on its granule, flattened by what it has lost. `saturation`: p_s / p at its
-    //! temperature.
-    double cap_rate(Deposit const& deposit, law::deposit::Film film, double saturation) const;
+    //! The two limits of one cap's evaporation, kg/s: alone on its granule, and through the granule's boundary layer
+    //! over its own surface. Flattened by what it has lost, with its own water activity and falling rate.
+    struct Limits
+    {
+        double cap, layer;
+    };
+    Limits limits(Deposit const& deposit, law::deposit::Film film, double saturation, double sherwood,
+                  double diameter) const;
 
     Settings const& settings() const { return settings_; }
 

@@ -4,6 +4,7 @@
 #include "granum/law/drag/all.hpp"
 #include "granum/law/drag/fluidisation.hpp"
 #include "granum/material/moist_air.hpp"
+#include "granum/sim/build.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,6 +42,13 @@ Moduli moduli(ContactMaterial const& granule)
 {
     double const nu = granule.poisson_ratio, shear = granule.youngs_modulus / (2 * (1 + nu));
     return {granule.youngs_modulus / (2 * (1 - nu * nu)), shear / (2 * (2 - nu))};
+}
+
+double fastest_given(Case const& data)
+{
+    double speed = 0;
+    for (auto const& one : data.granules.given) speed = std::max(speed, norm(one.velocity));
+    return speed;
 }
 
 //! Largest overlap, m, of two equal spheres that meet at `speed` without loss (Hertz).
@@ -99,7 +107,7 @@ void add_warnings(Case const& data, Forecast& out)
     if (out.overlap > 0.10)
         warn(fmt::format(
             "contacts at {:.2g} m/s overlap by {:.0f} % of a radius (10 % is the limit): raise contact.youngs_modulus",
-            out.contact_speed, 100 * out.overlap));
+            out.overlap_speed, 100 * out.overlap));
     if (data.granules.parcel_ratio > 10)
         warn(fmt::format("a parcel stands for {:.0f} granules: mixing and contact statistics are coarse",
                          std::pow(data.granules.parcel_ratio, 3)));
@@ -142,31 +150,12 @@ double plate_velocity(Case const& data)
 
 double expected_contact_speed(Case const& data)
 {
-    double speed = std::max(0.5, 0.5 * plate_velocity(data));
-    for (auto const& one : data.granules.given) speed = std::max(speed, norm(one.velocity));
-    return speed;
+    return std::max({1.0, plate_velocity(data), fastest_given(data)});
 }
 
-std::vector<GranuleStepBound> granule_step_bounds(Case const& data, double speed)
+std::vector<dem::StepBound> granule_step_bounds(Case const& data, double speed)
 {
-    double const radius = parcel_radius(data), density = data.granules.density;
-    auto const& granule = data.contact.granule;
-    double const shear = granule.youngs_modulus / (2 * (1 + granule.poisson_ratio));
-    double const rayleigh = math::pi * radius * std::sqrt(density / shear) / (0.1631 * granule.poisson_ratio + 0.8766);
-    double const overlap = largest_overlap(data, radius, speed);
-    double const contact = 2.943275 * overlap / speed;
-    std::vector<GranuleStepBound> out{
-        {0.2 * rayleigh,
-         fmt::format("0.2 of the Rayleigh time {:.3g} s of a parcel of {:.3g} mm", rayleigh, 2e3 * radius)},
-        {contact / 20, fmt::format("a twentieth of a contact at {:.2g} m/s, {:.3g} s", speed, contact)}};
-    if (data.contact.rolling != "none" && data.contact.granule_granule.rolling_friction > 0) {
-        // Period of I against k_r = k_t R*^2 with k_t = 8 G* sqrt(R* overlap), R* = R/2.
-        double const mass = density * 4 / 3 * math::pi * radius * radius * radius;
-        double const stiffness = 8 * moduli(granule).shear * std::sqrt(radius / 2 * overlap) * radius * radius / 4;
-        double const period = std::sqrt(0.4 * mass * radius * radius / stiffness);
-        out.push_back({0.2 * period, fmt::format("0.2 of the rolling spring's time {:.3g} s", period)});
-    }
-    return out;
+    return dem::step_bounds(granule_settings(data), parcel_radius(data), data.granules.density, speed);
 }
 
 bool has_balance(Case const& data)
@@ -186,7 +175,8 @@ Forecast forecast(Case const& data, int ranks)
         double const radius = parcel_radius(data);
         out.parcel_diameter = 2 * radius;
         out.contact_speed = expected_contact_speed(data);
-        out.overlap = largest_overlap(data, radius, out.contact_speed) / radius;
+        out.overlap_speed = std::max({0.5, 0.5 * out.plate_velocity, fastest_given(data)});
+        out.overlap = largest_overlap(data, radius, out.overlap_speed) / radius;
         out.bounds = granule_step_bounds(data, out.contact_speed);
         double least = out.bounds.front().seconds;
         for (auto const& bound : out.bounds) least = std::min(least, bound.seconds);

@@ -1,6 +1,7 @@
 // What a case implies before anything is run: sizes, speeds, steps, balance, memory and time.
 #pragma once
 
+#include "granum/dem/engine.hpp"
 #include "granum/sim/balance.hpp"
 #include "granum/sim/case.hpp"
 
@@ -10,13 +11,6 @@
 
 namespace granum::sim
 {
-//! An upper bound on the step of the granules, with its reason.
-struct GranuleStepBound
-{
-    double seconds;
-    std::string reason;
-};
-
 struct Forecast
 {
     double granules = 0;  //!< real granules represented
@@ -27,9 +21,10 @@ struct Forecast
     double minimum_fluidisation = 0;  //!< superficial, m/s, by the case's drag law at voidage 0.42
     double terminal_velocity = 0;     //!< m/s of one granule
     double reynolds = 0;              //!< of a granule at the plate velocity
-    double contact_speed = 0;         //!< m/s assumed for the bounds and the overlap
+    double contact_speed = 0;         //!< m/s assumed for the bounds
+    double overlap_speed = 0;         //!< m/s assumed for the overlap: what granules of a bed rarely exceed
     double overlap = 0;               //!< over the radius, at that speed
-    std::vector<GranuleStepBound> bounds;
+    std::vector<dem::StepBound> bounds;
     double granule_step = 0;  //!< s, of the case or the smallest bound
     double gas_step = 0;      //!< s, of the case or from the Courant number 0.5 of jet and bed
     long cells = 0;
@@ -44,12 +39,11 @@ struct Forecast
 //! Height, m, of a settled bed of `mass` kg at 60 % solids; nothing where the chamber is too small for it.
 std::optional<double> settled_height(Case const& data);
 
-//! Bounds from Rayleigh waves, the duration of a contact and rolling, for the parcels of the case.
-//! 0.2 of the Rayleigh time, a twentieth of the Hertz contact time, 0.2 of the period of the rolling spring.
-std::vector<GranuleStepBound> granule_step_bounds(Case const& data, double speed);
+//! Bounds of the engine on the step for the smallest parcels of the case, at `speed` m/s: the ones a run uses.
+std::vector<dem::StepBound> granule_step_bounds(Case const& data, double speed);
 
-//! Relative speed, m/s, that contacts are expected to reach: the larger of 0.5 m/s, the gas at the plate and what is
-//! given.
+//! Relative speed, m/s, that contacts are bounded for: the largest of 1 m/s, the gas at the plate and what granules are
+//! given at the start. An assumption: the engine watches the overlaps that really occur.
 double expected_contact_speed(Case const& data);
 
 //! Superficial velocity of the gas at the plate, m/s.

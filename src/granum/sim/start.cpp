@@ -177,15 +177,13 @@ void Simulation::start_deposits()
     deposit.solute = mass * spray.solids_fraction;
     deposit.base_radius =
         law::wetting::footprint_radius(median, spray.contact_angle, impact.weber(), impact.reynolds());
-    double const foot = math::pi * deposit.base_radius * deposit.base_radius;
     double const saturation = air::saturation_pressure(temperature) / pressure;
     double const dry = case_.drying.end_moisture * deposit.water_at_impact;
     DryingCurve curve;
     while (deposit.water > dry && curve.time.size() < 100000) {
-        double const cap = drying_->cap_rate(deposit, film, saturation);
-        double const layer = law::deposit::boundary_layer_rate(sherwood, batch.diameter, foot, film);
-        double const rate =
-            std::visit([&](auto const& law) { return law(cap, sum, layer, full); }, drying_->settings().combine);
+        auto const limit = drying_->limits(deposit, film, saturation, sherwood, batch.diameter);
+        double const rate = std::visit([&](auto const& law) { return law(limit.cap, sum, limit.layer, full); },
+                                       drying_->settings().combine);
         base::require(rate > 0, "deposits cannot dry at the balance's outlet state ({:.2f} K, {:.5f} kg/kg)",
                       temperature, balance_.outlet_humidity);
         double const h = std::min(0.01 * deposit.water_at_impact, deposit.water - 0.5 * dry) / rate;

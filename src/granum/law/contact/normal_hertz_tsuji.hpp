@@ -21,7 +21,7 @@ struct HertzTsuji
 {
     static constexpr base::Card card{.name = "hertz-tsuji",
                                      .title = "Hertz spring with Tsuji damping",
-                                     .source = "Tsuji, Tanaka and Ishida, Powder Technol. 71 (1992) 239 [R]",
+                                     .source = "Tsuji, Tanaka and Ishida, Powder Technol. 71 (1992) 239 (recalled, unverified)",
                                      .valid =
                                          "elastic spheres, overlap small against the radius; damping fitted for "
                                          "restitution from 0.1 to 1, extrapolated below"};

@@ -11,7 +11,7 @@ struct Epsd
 {
     static constexpr base::Card card{.name = "epsd",
                                      .title = "Elastic-plastic spring without dashpot",
-                                     .source = "Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011) 269 [R]",
+                                     .source = "Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011) 269 (recalled, unverified)",
                                      .valid = "time step below 0.2 sqrt(I / k_r); a granule at rest rocks a little"};
 
     //! Moves `torque` (N m, on the first partner) on by the relative spin (rad/s, first against second) times dt.

@@ -15,7 +15,7 @@ struct Mindlin
     static constexpr base::Card card{
         .name = "mindlin",
         .title = "Mindlin spring on the total displacement, Coulomb limit on the total force",
-        .source = "Mindlin and Deresiewicz, J. Appl. Mech. 20 (1953) 327 [R]",
+        .source = "Mindlin and Deresiewicz, J. Appl. Mech. 20 (1953) 327 (recalled, unverified)",
         .valid =
             "small slip; the spring loses energy when the overlap falls, as known for "
             "the total form"};
