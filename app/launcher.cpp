@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -60,7 +59,7 @@ void end_at_once()
     setenv("GRANUM_TERMINAL", terminal ? "1" : "0", 1);
     for (auto const* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}) setenv(name, "1", 1);
     setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers forbid it, with a warning per run
-    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);  // waiting ranks leave the core to whoever has work
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);                 // waiting ranks leave the core to whoever has work
     std::vector<std::string> words{"mpirun", "--quiet",         "-n",   std::to_string(ranks), "--bind-to",
                                    "none",   "--oversubscribe", program};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -74,12 +73,11 @@ void end_at_once()
 
 int launch_ranks(int ranks, std::vector<std::string> const& arguments)
 {
-    std::array<char, 32> name{"/tmp/granum-status-XXXXXX"};
-    int const made = mkstemp(name.data());
-    if (made < 0) throw base::IoError(fmt::format("cannot make a temporary file: {}", std::strerror(errno)));
-    close(made);
-    std::filesystem::remove(name.data());  // the ranks make it anew, and only the first one succeeds
-    setenv(status_file, name.data(), 1);
+    // A folder that only this user can enter, so that nobody else can write the status.
+    auto folder = (std::filesystem::temp_directory_path() / "granum-XXXXXX").string();
+    if (!mkdtemp(folder.data())) throw base::IoError(fmt::format("cannot make {}: {}", folder, std::strerror(errno)));
+    auto const name = folder + "/status";
+    setenv(status_file, name.c_str(), 1);
 
     struct sigaction action = {};
     action.sa_handler = pass_on;
@@ -105,8 +103,8 @@ int launch_ranks(int ranks, std::vector<std::string> const& arguments)
     child = 0;
 
     int said = -1;
-    std::ifstream(name.data()) >> said;
-    std::filesystem::remove(name.data());
+    std::ifstream(name) >> said;
+    std::filesystem::remove_all(folder);
     if (ended) return static_cast<int>(base::Exit::interrupted);
     if (said >= 0) return said;
     if (WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 127)
