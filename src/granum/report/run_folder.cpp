@@ -95,7 +95,7 @@ RunFolder read_run(std::string const& path)
     if (run.summary.empty() || run.summary.contains("spray"))
         attempt("events.h5", [&](std::string const& file) { run.events = io::read_events(file); });
     attempt("snapshots.h5", [&](std::string const& file) { run.snapshot = io::read_snapshot(file); });
-    attempt("case.toml", [&](std::string const& file) { run.resolved_case = io::read_text(file); });
+    attempt("resolved.txt", [&](std::string const& file) { run.resolved_case = io::read_text(file); });
     auto const& listed = run.at("warnings");
     if (listed.is_array()) {
         for (auto const& warning : listed)

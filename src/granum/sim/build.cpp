@@ -155,7 +155,7 @@ spray::FlightSettings flight_settings(Case const& data)
     Vec3 const size = data.chamber.upper() - data.chamber.lower();
     double const cell = std::min({size.x / number[0], size.y / number[1], size.z / number[2]});
     return {.liquid = spray_liquid(data),
-            .capture = law::capture::Loeffler{},
+            .capture = named<law::capture::All>(data.spray.capture),
             .gravity = data.gravity,
             .pressure = data.gas.pressure,
             .end_moisture = data.drying.end_moisture,

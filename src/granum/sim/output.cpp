@@ -91,9 +91,9 @@ std::vector<CellRow> cell_rows(Simulation& simulation)
 }
 
 template <class Rows, class Pick>
-io::NamedArray column(std::string name, Rows const& rows, Pick&& pick)
+io::NamedArray column(std::string name, Rows const& rows, Pick&& pick, io::Precision precision = io::Precision::single)
 {
-    io::NamedArray out{.name = std::move(name)};
+    io::NamedArray out{.name = std::move(name), .precision = precision};
     if constexpr (std::is_same_v<std::decay_t<decltype(pick(rows.front()))>, Vec3>) {
         out.components = 3;
         for (auto const& row : rows) {
@@ -238,14 +238,16 @@ void Output::picture()
     };
     std::vector<Vec3> places;
     for (auto const& row : granules) places.push_back(row.position);
-    io::write_points(folder_ + "/" + name("granules", "vtp"), places,
-                     {column("id", granules, [](auto const& r) { return static_cast<double>(r.id); }),
-                      column("radius [m]", granules, [](auto const& r) { return r.radius; }),
-                      column("velocity [m/s]", granules, [](auto const& r) { return r.velocity; }),
-                      column("temperature [K]", granules, [](auto const& r) { return r.temperature; }),
-                      column("moisture [kg/kg]", granules, [](auto const& r) { return r.moisture; }),
-                      column("diameter [m]", granules, [](auto const& r) { return r.diameter; }),
-                      column("layer mass [kg]", granules, [](auto const& r) { return r.layer_mass; })});
+    io::write_points(
+        folder_ + "/" + name("granules", "vtp"), places,
+        {column(
+             "id", granules, [](auto const& r) { return static_cast<double>(r.id); }, io::Precision::twice),
+         column("radius [m]", granules, [](auto const& r) { return r.radius; }),
+         column("velocity [m/s]", granules, [](auto const& r) { return r.velocity; }),
+         column("temperature [K]", granules, [](auto const& r) { return r.temperature; }),
+         column("moisture [kg/kg]", granules, [](auto const& r) { return r.moisture; }),
+         column("diameter [m]", granules, [](auto const& r) { return r.diameter; }),
+         column("layer mass [kg]", granules, [](auto const& r) { return r.layer_mass; })});
     granules_.add(time, name("granules", "vtp"));
     io::Snapshot snapshot;
     snapshot.time = time;

@@ -68,14 +68,12 @@ Readings Simulation::readings() const
             coldest = std::min(coldest, gas_.temperature[cell]);
             hottest = std::max(hottest, gas_.temperature[cell]);
             if (k == 0) {
-                // Less the weight of the gas column, as a differential pressure gauge beside the bed would read.
+                // Less the weight of the gas column, as a differential pressure gauge beside the bed would read. The
+                // drag in the lowest cell acts on its upper face, so the pressure in it is already that at the plate.
                 double const column = gas_.density[cell] * g * (height - grid_.centre(i, j, k).z);
                 double const area = grid_.open_area[2][cell];
                 sums[plate_area] += area;
-                // At the plate itself: half a cell below the first centre, with the gradient between the two.
-                double const above = gas_.pressure[grid_.at(i, j, k + 1)];
-                double const plate = gas_.pressure[cell] + 0.5 * (gas_.pressure[cell] - above);
-                sums[plate_pressure] += area * (plate - column);
+                sums[plate_pressure] += area * (gas_.pressure[cell] - column);
             }
         });
     }

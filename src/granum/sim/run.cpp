@@ -1,5 +1,6 @@
 #include "granum/sim/run.hpp"
 
+#include "granum/sim/case_reader.hpp"
 #include "granum/sim/output.hpp"
 #include "granum/sim/simulation.hpp"
 #include "granum/sim/stop.hpp"
@@ -44,9 +45,7 @@ void write_text(std::string const& path, std::string const& text)
 //! The resolved case with the origin of each value, and the file as the user wrote it.
 void write_case(std::string const& folder, ResolvedCase const& resolved)
 {
-    std::string text = fmt::format("# resolved from {}\n", resolved.data.file);
-    for (auto const& o : resolved.origins) text += fmt::format("{} = {}  # {}: {}\n", o.key, o.value, o.origin, o.doc);
-    write_text(folder + "/resolved.toml", text);
+    write_text(folder + "/resolved.txt", explain(resolved));
     if (std::ifstream original(resolved.data.file); original)
         write_text(folder + "/case.toml", std::string(std::istreambuf_iterator<char>(original), {}));
 }
@@ -60,7 +59,7 @@ class LiveLine
     void update(Simulation const& simulation, Sample const& sample)
     {
         double const now = seconds_since(start_);
-        if (!shown_ || now - last_ < (terminal_ ? 0.5 : 20.0)) return;
+        if (!shown_ || simulation.time() <= 0 || now - last_ < (terminal_ ? 0.5 : 20.0)) return;
         last_ = now;
         double const speed = simulation.time() / now, left = (end_ - simulation.time()) / std::max(speed, 1e-12);
         auto const line = fmt::format(
