@@ -65,17 +65,15 @@ Percentiles percentiles(std::span<double const> values, std::span<double const> 
     return {percentile(values, weights, 0.1), percentile(values, weights, 0.5), percentile(values, weights, 0.9)};
 }
 
-BatchProperty batch_property(std::span<LayerSum const> granules, std::span<double const> counts)
+BatchProperty batch_property(std::span<LayerSum const> granules)
 {
-    base::require(granules.size() == counts.size(), "batch property: {} granules but {} counts", granules.size(),
-                  counts.size());
     LayerSum all;
     std::vector<double> means, weights;
-    for (std::size_t i = 0; i < granules.size(); ++i) {
-        if (granules[i].solids <= 0) continue;
-        all += granules[i];
-        means.push_back(granules[i].prediction().mean);
-        weights.push_back(counts[i]);
+    for (auto const& granule : granules) {
+        if (granule.solids <= 0) continue;
+        all += granule;
+        means.push_back(granule.prediction().mean);
+        weights.push_back(granule.solids);
     }
     base::require(!means.empty(), "batch property: none of {} granules has a layer", granules.size());
 

@@ -41,12 +41,12 @@ struct BatchProperty
 {
     Prediction mean;       //!< over all solids of the batch
     double low, high;      //!< 95 % interval of the mean: both deviations, as normal errors
-    Percentiles granules;  //!< of the granules' own means, by number of granules
+    Percentiles granules;  //!< of the granules' own means, by mass of their layers
 };
 
-//! Property of a batch of granules (or parcels that stand for `counts` equal ones). Granules without a layer have no
-//! say. Throws base::NumericsError where no granule has one or the lengths differ.
-BatchProperty batch_property(std::span<LayerSum const> granules, std::span<double const> counts);
+//! Property of a batch of granules. Granules count by the solids of their layers: a granule that met one droplet says
+//! little about the product. Throws base::NumericsError where no granule has a layer.
+BatchProperty batch_property(std::span<LayerSum const> granules);
 
 enum class Weighting
 {

@@ -244,9 +244,9 @@ std::string porosity_section(RunFolder const& run)
                   "so this is narrower.");
     out += "</div><table class=\"narrow\"><tbody>";
     out += row("mean porosity of the layer", quantity(mean, "", 4)) +
-           row("10 % of the granules are below", quantity(p10, "", 4)) +
+           row("10 % of the layer is below", quantity(p10, "", 4)) +
            row("median", quantity(run.value("product.porosity.p50"), "", 4)) +
-           row("90 % of the granules are below", quantity(p90, "", 4));
+           row("90 % of the layer is below", quantity(p90, "", 4));
     auto const low = run.value("product.porosity.interval_low"), high = run.value("product.porosity.interval_high");
     if (low && high) out += row("95 % interval of the mean", number(*low, 3) + " to " + number(*high, 3));
     return section("porosity", "Predicted porosity", out + "</tbody></table>");

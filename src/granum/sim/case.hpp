@@ -32,13 +32,13 @@ struct ContactPair
 struct ContactCase
 {
     ContactMaterial granule, wall;
-    bool rigid_wall = false;               //!< the wall does not yield: only the granule's modulus counts
+    bool rigid_wall = false;  //!< the wall does not yield: only the granule's modulus counts
     ContactPair granule_granule, granule_wall;
-    std::string normal = "hertz-tsuji";    //!< law names
+    std::string normal = "hertz-tsuji";  //!< law names
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
-    bool lever_radius = false;             //!< lever arm R instead of R - overlap/2
-    bool keep_attraction = false;          //!< keep the tensile end of a damped contact (Tsuji's own damping)
+    bool lever_radius = false;     //!< lever arm R instead of R - overlap/2
+    bool keep_attraction = false;  //!< keep the tensile end of a damped contact (Tsuji's own damping)
 };
 
 //! One granule given by hand ([[granule]] tables or a CSV file).
@@ -52,24 +52,24 @@ struct GranuleCase
 //! [granules]
 struct GranulesCase
 {
-    double diameter = 0.6e-3;  //!< m, of a real granule
-    double density = 1445;     //!< kg/m3
-    double mass = 0;           //!< kg of the batch; 0 where granules are given one by one
-    double parcel_ratio = 1;   //!< l: a parcel stands for l^3 granules
-    double heat_capacity = 1400;  //!< J/kg/K of the dry core and layer
+    double diameter = 0.6e-3;       //!< m, of a real granule
+    double density = 1445;          //!< kg/m3
+    double mass = 0;                //!< kg of the batch; 0 where granules are given one by one
+    double parcel_ratio = 1;        //!< l: a parcel stands for l^3 granules
+    double heat_capacity = 1400;    //!< J/kg/K of the dry core and layer
     std::string start = "settled";  //!< "settled" (random packing that fell under gravity), "loose", "lattice", "given"
     std::vector<GranuleCase> given;
-    bool frozen = false;       //!< granules do not move (fixed bed)
-    long parcels = 0;          //!< derived
+    bool frozen = false;  //!< granules do not move (fixed bed)
+    long parcels = 0;     //!< derived
 };
 
 //! A gas flow at its inlet.
 struct InletCase
 {
-    double dry_mass_flow = 0;  //!< kg dry air per s; 0 where `velocity` is given
-    double velocity = 0;       //!< superficial at the plate, m/s; < 0: not given
+    double dry_mass_flow = 0;     //!< kg dry air per s; 0 where `velocity` is given
+    double velocity = 0;          //!< superficial at the plate, m/s; < 0: not given
     double temperature = 293.15;  //!< K
-    double humidity = 0;       //!< kg water per kg dry air
+    double humidity = 0;          //!< kg water per kg dry air
 };
 
 //! [gas]
@@ -82,38 +82,38 @@ struct GasCase
     std::array<int, 3> cells{1, 1, 1};
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";
-    double smoothing = 0;      //!< bandwidth of the voidage smoothing, m; 0: off
-    bool closed = false;       //!< no inlet and no outlet (periodic or closed box)
-    Vec3 initial_velocity;     //!< m/s
+    double smoothing = 0;   //!< bandwidth of the voidage smoothing, m; 0: off
+    bool closed = false;    //!< no inlet and no outlet (periodic or closed box)
+    Vec3 initial_velocity;  //!< m/s
 };
 
 //! [spray]: one liquid, any number of nozzles share its rate equally (this issue: one nozzle).
 struct NozzleCase
 {
-    Vec3 position;             //!< m
-    Vec3 direction{0, 0, -1};  //!< unit
-    double half_angle = 0.26;  //!< rad, of the droplet cone
-    double air_mass_flow = 0;  //!< kg/s of atomising air, dry
+    Vec3 position;                    //!< m
+    Vec3 direction{0, 0, -1};         //!< unit
+    double half_angle = 0.26;         //!< rad, of the droplet cone
+    double air_mass_flow = 0;         //!< kg/s of atomising air, dry
     double air_temperature = 293.15;  //!< K
-    double air_humidity = 0;   //!< kg/kg dry
-    double air_velocity = 250; //!< m/s at the exit: momentum = mass flow * velocity
-    double droplet_velocity = 30;  //!< m/s at the exit
+    double air_humidity = 0;          //!< kg/kg dry
+    double air_velocity = 250;        //!< m/s at the exit: momentum = mass flow * velocity
+    double droplet_velocity = 30;     //!< m/s at the exit
 };
 struct SprayCase
 {
     bool present = false;
     std::string liquid = "sodium-benzoate-30";
-    double rate = 0;              //!< kg of liquid per s, all nozzles
-    double solids_fraction = 0.3; //!< kg solids per kg liquid
-    double temperature = 298.15;  //!< K
+    double rate = 0;                                                   //!< kg of liquid per s, all nozzles
+    double solids_fraction = 0.3;                                      //!< kg solids per kg liquid
+    double temperature = 298.15;                                       //!< K
     double density = 1130, viscosity = 3e-3, surface_tension = 0.063;  //!< SI
-    double solids_density = 1440; //!< kg/m3 of the dry solids without pores
-    double solubility = 0.63;     //!< kg solids per kg water at saturation; 0: a suspension (water activity 1)
-    double molar_mass = 0.1441;   //!< kg/mol of the solute
-    double dissociation = 2;      //!< van 't Hoff factor
-    double contact_angle = 0.698; //!< rad
+    double solids_density = 1440;                                      //!< kg/m3 of the dry solids without pores
+    double solubility = 0.63;       //!< kg solids per kg water at saturation; 0: a suspension (water activity 1)
+    double molar_mass = 0.1441;     //!< kg/mol of the solute
+    double dissociation = 2;        //!< van 't Hoff factor
+    double contact_angle = 0.698;   //!< rad
     double droplet_median = 40e-6;  //!< m, of the volume distribution
-    double droplet_spread = 1.6;  //!< geometric standard deviation
+    double droplet_spread = 1.6;    //!< geometric standard deviation
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules
@@ -132,17 +132,17 @@ struct DryingCase
 struct ProductCase
 {
     std::string porosity_model = "linear-drying-potential";
-    double porosity_at_zero = 0.70;   //!< layer porosity at eta = 0
-    double porosity_slope = -0.50;    //!< d porosity / d eta
-    double porosity_band = 0.07;      //!< one standard deviation of a layer element about the line
-    bool illustrative = true;         //!< coefficients not fitted to measurements of this product
+    double porosity_at_zero = 0.70;  //!< layer porosity at eta = 0
+    double porosity_slope = -0.50;   //!< d porosity / d eta
+    double porosity_band = 0.07;     //!< one standard deviation of a layer element about the line
+    bool illustrative = true;        //!< coefficients not fitted to measurements of this product
 };
 
 //! [start]
 struct StartCase
 {
-    bool quasi_steady = true;          //!< bed, gas and surface moisture from the balance
-    double temperature_offset = 0;     //!< K added to the bed temperature of the balance
+    bool quasi_steady = true;                                //!< bed, gas and surface moisture from the balance
+    double temperature_offset = 0;                           //!< K added to the bed temperature of the balance
     std::optional<double> bed_temperature, gas_temperature;  //!< K, where not from the balance
 };
 
@@ -151,14 +151,14 @@ struct TimeCase
 {
     double duration = 1;
     std::optional<double> granule_step, gas_step;  //!< s; otherwise chosen from the bounds
-    double output_interval = 0.1;    //!< of pictures and ParaView files, s
-    double series_interval = 0.005;  //!< of timeseries.csv, s
+    double output_interval = 0.1;                  //!< of pictures and ParaView files, s
+    double series_interval = 0.005;                //!< of timeseries.csv, s
 };
 
 struct Case
 {
     std::string title = "untitled";
-    std::string file;                //!< as the user typed it
+    std::string file;  //!< as the user typed it
     geometry::Chamber chamber;
     std::array<bool, 3> periodic{};  //!< of a box
     Vec3 gravity{0, 0, -math::standard_gravity};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace granum::sim
 {
@@ -85,6 +86,7 @@ Readings Simulation::readings() const
     r.kinetic_energy = sums[energy];
     r.coldest = comm_.min(coldest), r.hottest = comm_.max(hottest);
     r.height = sums[mass] > 0 ? 2 * sums[mass_height] / sums[mass] : 0;
+    r.outlet_temperature = r.outlet_humidity = r.eta = std::numeric_limits<double>::quiet_NaN();  // nothing has left
     if (!has_gas()) return r;
     if (sums[out_mass] > 0) {
         double const w = sums[out_vapour] / sums[out_mass];

@@ -53,7 +53,7 @@ json product_part(Simulation const& simulation, Output const& output)
         out["porosity"] = nullptr;
         return out;
     }
-    auto const batch = product::batch_property(output.layers(), view.count);
+    auto const batch = product::batch_property(output.layers());
     out["porosity"] = {{"mean", batch.mean.mean},
                        {"p10", batch.granules.p10},
                        {"p50", batch.granules.p50},
@@ -157,7 +157,7 @@ std::string closing_words(std::string const& summary_json)
     if (product["porosity"].is_object()) {
         auto const& p = product["porosity"];
         out += fmt::format(
-            "layer porosity    {:.3f} (95 % interval {:.3f} to {:.3f}); granules p10 {:.3f}, p50 {:.3f}, p90 {:.3f}\n",
+            "layer porosity    {:.3f} (95 % interval {:.3f} to {:.3f}); by layer p10 {:.3f}, p50 {:.3f}, p90 {:.3f}\n",
             p["mean"].get<double>(), p["interval_low"].get<double>(), p["interval_high"].get<double>(),
             p["p10"].get<double>(), p["p50"].get<double>(), p["p90"].get<double>());
         out += fmt::format("                  {}\n", product["notice"].get<std::string>());

@@ -91,7 +91,8 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
     for (std::size_t n = 0; n < droplets.size(); ++n) {
         Droplet droplet = droplets[n];
         base::Random random(settings.seed, base::Purpose::capture, droplet.id, step);
-        double left = dt;
+        double left = dt - droplet.delay;
+        droplet.delay = 0;
         bool gone = false;
         while (left > 0 && !gone) {
             Seen const seen = around.seen(droplet.position);

@@ -71,6 +71,7 @@ std::vector<Droplet> Nozzle::emit(double now, double dt, Liquid const& liquid, s
         droplet.weight = parcel_mass / mass;
         droplet.temperature = droplet_temperature;
         droplet.position = position;
+        droplet.delay = std::clamp((static_cast<double>(n) + 0.5) / parcels_per_second - now, 0.0, dt);
         double const cosine = 1 - random.uniform() * (1 - std::cos(half_angle));
         double const sine = std::sqrt(1 - cosine * cosine), turn = 2 * math::pi * random.uniform();
         droplet.velocity =

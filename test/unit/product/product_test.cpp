@@ -107,20 +107,21 @@ TEST(Percentile, of_nothing_is_refused)
     EXPECT_THROW(percentile(std::vector<double>{1, 2}, std::vector<double>{1}, 0.5), base::NumericsError);
 }
 
-TEST(Batch, weighs_its_mean_with_solids_and_its_percentiles_with_granules)
+TEST(Batch, weighs_its_mean_and_its_percentiles_with_the_solids_of_each_granule)
 {
     // A heavy layer of porosity 0.2 and two light ones of 0.6; one granule got nothing.
     std::vector<LayerSum> granules(4);
     granules[0].add(8, {0.2, 0, 0.05});
     granules[1].add(1, {0.6, 0, 0.05});
     granules[2].add(1, {0.6, 0, 0.05});
-    std::vector<double> const counts(4, 27.0);
-    auto const batch = batch_property(granules, counts);
+    auto const batch = batch_property(granules);
     EXPECT_NEAR(batch.mean.mean, 0.28, 1e-12);
-    EXPECT_NEAR(batch.granules.p50, 0.6, 1e-12);
+    // The heavy one stands at 0.4 of the weight, the light ones at 0.85 and 0.95: the median lies between.
+    EXPECT_NEAR(batch.granules.p50, 0.2 + 0.4 * (0.5 - 0.4) / (0.85 - 0.4), 1e-12);
+    EXPECT_NEAR(batch.granules.p90, 0.6, 1e-12);
     EXPECT_NEAR(batch.granules.p10, 0.2, 1e-12);
     EXPECT_NEAR(batch.high - batch.low, 2 * 1.959964 * 0.05, 1e-9);
-    EXPECT_THROW(batch_property(std::vector<LayerSum>(2), std::vector<double>(2, 1.0)), base::NumericsError);
+    EXPECT_THROW(batch_property(std::vector<LayerSum>(2)), base::NumericsError);
 }
 
 TEST(Batch, interval_holds_the_truth_as_often_as_it_says)
@@ -141,7 +142,7 @@ TEST(Batch, interval_holds_the_truth_as_often_as_it_says)
                 solids += mass;
                 truth += mass * (0.4 + off + 0.08 * random.normal());
             }
-        auto const batch = batch_property(granules, std::vector<double>(3, 1.0));
+        auto const batch = batch_property(granules);
         held += batch.low < truth / solids && truth / solids < batch.high;
     }
     EXPECT_NEAR(static_cast<double>(held) / products, 0.95, 4 * std::sqrt(0.05 * 0.95 / products));
