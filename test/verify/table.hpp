@@ -1,0 +1,109 @@
+// The table of verification: each row holds a number of ours against one from elsewhere. A row outside its tolerance
+// fails its test; when the whole program has run, the table is written as Markdown to the file named by
+// GRANUM_VERIFY_TABLE, or to verify.md where the program runs.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <source_location>
+#include <string>
+#include <vector>
+
+namespace granum::verify
+{
+using Where = std::source_location;
+
+struct Row
+{
+    std::string id, quantity, reference, ours, difference, tolerance;
+    bool good;
+};
+
+class Table : public ::testing::Environment
+{
+  public:
+    static Table& only()
+    {
+        static Table* const table = new Table;  // gtest deletes its environments
+        return *table;
+    }
+
+    void add(Row row, Where const& where)
+    {
+        if (!row.good)
+            ADD_FAILURE_AT(where.file_name(), static_cast<int>(where.line()))
+                << row.id << ", " << row.quantity << ": " << row.ours << " instead of " << row.reference
+                << ", difference " << row.difference << ", tolerance " << row.tolerance;
+        rows_.push_back(std::move(row));
+    }
+
+    void TearDown() override
+    {
+        if (GTEST_FLAG_GET(filter) != "*") return;  // part of the rows is no table
+        char const* const named = std::getenv("GRANUM_VERIFY_TABLE");
+        std::ofstream out(named ? named : "verify.md");
+        std::stable_sort(rows_.begin(), rows_.end(), [](Row const& a, Row const& b) { return rank(a) < rank(b); });
+        out << "# Verification\n\nWritten by `./dev test verify`; do not edit. Each row holds a number of this program "
+               "against one that did not\ncome from it: a closed form, an independent small program, a table of "
+               "somebody else. Rows that name a motion go through\nthe step that `granum run` takes, from a case as a "
+               "user would write it. P: the project's test matrix; X: reference cases\nof `test/reference/`.\n\n";
+        out << "| id | quantity | reference | ours | difference | tolerance | verdict "
+               "|\n|---|---|---:|---:|---:|---:|---|\n";
+        for (auto const& row : rows_)
+            out << fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.id, row.quantity, row.reference, row.ours,
+                               row.difference, row.tolerance, row.good ? "holds" : "FAILS");
+    }
+
+  private:
+    static std::pair<char, int> rank(Row const& row) { return {row.id[0], std::atoi(row.id.c_str() + 1)}; }
+
+    std::vector<Row> rows_;
+};
+
+inline ::testing::Environment* const registered = ::testing::AddGlobalTestEnvironment(&Table::only());
+
+//! `ours` within the share `tolerance` of `reference`.
+inline void relative(std::string const& id, std::string const& quantity, double reference, double ours,
+                     double tolerance, Where const& where = Where::current())
+{
+    double const difference = ours / reference - 1;
+    Table::only().add({id, quantity, fmt::format("{:.6g}", reference), fmt::format("{:.6g}", ours),
+                       fmt::format("{:+.2g} %", 100 * difference), fmt::format("{:.2g} %", 100 * tolerance),
+                       std::abs(difference) <= tolerance},
+                      where);
+}
+
+//! `ours` within `tolerance`, in the quantity's unit, of `reference`.
+inline void absolute(std::string const& id, std::string const& quantity, double reference, double ours,
+                     double tolerance, Where const& where = Where::current())
+{
+    double const difference = ours - reference;
+    Table::only().add(
+        {id, quantity, fmt::format("{:.6g}", reference), fmt::format("{:.6g}", ours),
+         fmt::format("{:+.2g}", difference), fmt::format("{:.2g}", tolerance), std::abs(difference) <= tolerance},
+        where);
+}
+
+//! `ours` from `low` to `high`.
+inline void between(std::string const& id, std::string const& quantity, double low, double high, double ours,
+                    Where const& where = Where::current())
+{
+    Table::only().add({id, quantity, fmt::format("{:.6g} to {:.6g}", low, high), fmt::format("{:.6g}", ours), "",
+                       "range", ours >= low && ours <= high},
+                      where);
+}
+
+//! `ours` not above `limit`; what is asked for is 0.
+inline void below(std::string const& id, std::string const& quantity, double limit, double ours,
+                  Where const& where = Where::current())
+{
+    Table::only().add({id, quantity, "0", fmt::format("{:.2g}", ours), fmt::format("{:.2g}", ours),
+                       fmt::format("{:.2g}", limit), std::abs(ours) <= limit},
+                      where);
+}
+}
