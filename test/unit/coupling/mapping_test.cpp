@@ -1,0 +1,156 @@
+// What is spread is neither lost nor made, what is gathered with it is its adjoint, and even suspensions stay even.
+#include "unit/coupling/bed.hpp"
+
+#include <cmath>
+
+namespace
+{
+using namespace granum;
+using namespace granum::coupling;
+
+//! A number between 0.5 and 1.5 that belongs to a cell of the whole domain, whatever rank it is on.
+double of_cell(Grid const& grid, int i, int j, int k)
+{
+    auto const id = static_cast<std::uint64_t>((i + grid.shift) + 100 * (j + 100 * k));
+    return 0.5 + base::Random(3, base::Purpose::test, id, 1).uniform();
+}
+double of_granule(particle::Id id)
+{
+    return 0.5 + base::Random(3, base::Purpose::test, id, 2).uniform();
+}
+
+struct Cone : testing::TestWithParam<double>
+{
+    Bed bed{cone(), cone_cells, {}, {}, laws(), GetParam()};
+    Cone() { bed.fill(2000, 0.2, 27); }
+
+    Field spread()
+    {
+        bed.mapping.locate(bed.granules);
+        Field field = bed.grid.make_field();
+        for (std::size_t row = 0; row < bed.granules.owned; ++row)
+            Mapping::spread(bed.mapping.stencils()[row], of_granule(bed.granules.id[row]), field);
+        Field* fields[] = {&field};
+        bed.mapping.finish(fields);
+        return field;
+    }
+};
+
+TEST_P(Cone, spreads_all_of_every_amount_and_none_into_closed_cells)
+{
+    auto const field = spread();
+    double const amount = bed.sum_over_granules([&](std::size_t row) { return of_granule(bed.granules.id[row]); });
+    EXPECT_EQ(bed.comm.sum(static_cast<long>(bed.granules.owned)), 2000);
+    EXPECT_NEAR(bed.sum(field) / amount, 1, 1e-13);
+    grid::for_each_cell(bed.grid, [&](int, int, int, Index cell) {
+        if (!bed.grid.open(cell)) {
+            EXPECT_EQ(field[cell], 0);
+        }
+        EXPECT_GE(field[cell], 0);
+    });
+}
+
+TEST_P(Cone, gathers_with_the_adjoint_of_what_it_spreads_with)
+{
+    auto const field = spread();
+    Field seen = bed.grid.make_field();
+    double cells = 0;
+    grid::for_each_cell(bed.grid, [&](int i, int j, int k, Index cell) {
+        seen[cell] = of_cell(bed.grid, i, j, k);
+        cells += seen[cell] * field[cell];
+    });
+    Field* fields[] = {&seen};
+    bed.mapping.prepare(fields);
+    double const granules = bed.sum_over_granules([&](std::size_t row) {
+        return of_granule(bed.granules.id[row]) * Mapping::gather(bed.mapping.stencils()[row], seen);
+    });
+    EXPECT_NEAR(granules / bed.comm.sum(cells), 1, 1e-13);
+}
+
+TEST_P(Cone, sees_a_uniform_field_everywhere_as_it_is)
+{
+    bed.mapping.locate(bed.granules);
+    Field field = bed.grid.make_field(3.25);
+    Field* fields[] = {&field};
+    bed.mapping.prepare(fields);
+    for (std::size_t row = 0; row < bed.granules.owned; ++row)
+        EXPECT_NEAR(Mapping::gather(bed.mapping.stencils()[row], field), 3.25, 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mapping, Cone, testing::Values(0.0, 0.03),
+                         [](auto const& param) { return param.param > 0 ? "smoothed" : "plain"; });
+
+TEST(Mapping, smooths_with_the_stated_standard_deviation)
+{
+    double const width = 0.025;
+    Bed bed({.size = {0.3, 0.3, 0.3}}, {30, 30, 30}, {}, {}, laws(), width);
+    Vec3 const middle{0.155, 0.155, 0.155};  // a cell centre
+    Field field = bed.grid.make_field();
+    if (bed.mine(middle)) Mapping::spread(bed.mapping.stencil(middle), 1.0, field);
+    Field* fields[] = {&field};
+    bed.mapping.finish(fields);
+    std::array<double, 3> second{};
+    grid::for_each_cell(bed.grid, [&](int i, int j, int k, Index cell) {
+        Vec3 const away = bed.grid.centre(i, j, k) - middle;
+        for (std::size_t d = 0; d < 3; ++d) second[d] += field[cell] * away[d] * away[d];
+    });
+    bed.comm.sum(second);
+    for (double const variance : second) EXPECT_NEAR(std::sqrt(variance), width, 1e-3 * width);
+}
+
+//! Eight granules in every cell of a box, at quarter points, on all ranks together.
+void fill_evenly(Bed& bed, std::array<int, 3> cells, double diameter)
+{
+    particle::Id id = 0;
+    for (int k = 0; k < 2 * cells[2]; ++k)
+        for (int j = 0; j < 2 * cells[1]; ++j)
+            for (int i = 0; i < 2 * cells[0]; ++i)
+                bed.put(id++, {.position = {(i + 0.5) * 0.5 * bed.grid.spacing.x, (j + 0.5) * 0.5 * bed.grid.spacing.y,
+                                            (k + 0.5) * 0.5 * bed.grid.spacing.z},
+                               .diameter = diameter});
+}
+
+TEST(Voidage, of_an_even_suspension_is_even_up_to_the_walls)
+{
+    std::array<int, 3> const cells{6, 4, 5};
+    for (bool const periodic : {false, true})
+        for (double const bandwidth : {0.0, 0.004}) {
+            Bed bed({.size = {0.012, 0.008, 0.010}}, cells, {periodic, periodic, false}, {}, laws(), bandwidth);
+            fill_evenly(bed, cells, 0.8e-3);
+            bed.mapping.locate(bed.granules);
+            auto const voidage = bed.exchange.voidage(bed.granules);
+            double const expected = 1 - 8 * math::pi / 6 * std::pow(0.8e-3, 3) / std::pow(0.002, 3);
+            grid::for_each_cell(bed.grid,
+                                [&](int, int, int, Index cell) { EXPECT_NEAR(voidage[cell], expected, 1e-13); });
+            EXPECT_EQ(bed.exchange.clamped_cells(), 0);
+        }
+}
+
+TEST(Voidage, leaves_room_for_just_the_granules_that_are_there)
+{
+    Bed bed(cone(), cone_cells, {}, {}, laws(), 0.02);
+    bed.fill(3000, 0.2, 27);
+    bed.mapping.locate(bed.granules);
+    auto const voidage = bed.exchange.voidage(bed.granules);
+    double solids = 0;
+    grid::for_each_cell(bed.grid,
+                        [&](int, int, int, Index cell) { solids += (1 - voidage[cell]) * bed.grid.open_volume[cell]; });
+    ASSERT_EQ(bed.comm.sum(bed.exchange.clamped_cells()), 0);
+    EXPECT_NEAR(bed.comm.sum(solids), 3000 * 27 * math::pi / 6 * std::pow(0.6e-3, 3), 1e-15);
+}
+
+TEST(Voidage, never_falls_below_the_densest_packing_and_says_where_it_would)
+{
+    Bed bed({.size = {0.012, 0.008, 0.010}}, {6, 4, 5}, {}, {}, laws());
+    for (particle::Id id = 0; id < 20; ++id) bed.put(id, {.position = {0.005, 0.005, 0.005}, .diameter = 1e-3});
+    bed.mapping.locate(bed.granules);
+    auto const voidage = bed.exchange.voidage(bed.granules);
+    long clamped = 0;
+    grid::for_each_cell(bed.grid, [&](int, int, int, Index cell) {
+        EXPECT_GE(voidage[cell], 0.35);
+        clamped += voidage[cell] == 0.35;
+    });
+    EXPECT_EQ(bed.comm.sum(clamped), 1);
+    EXPECT_GE(bed.comm.sum(bed.exchange.clamped_cells()), 1);
+}
+}
