@@ -70,11 +70,14 @@ Readings Simulation::readings() const
             hottest = std::max(hottest, gas_.temperature[cell]);
             if (k == 0) {
                 // Less the weight of the gas column, as a differential pressure gauge beside the bed would read. The
-                // drag in the lowest cell acts on its upper face, so the pressure in it is already that at the plate.
+                // drag of the lowest cell acts on its upper face, so the gas below the centre loses no pressure more;
+                // what the slope does to the granules there is the plate's to hold up: the solids' share of it.
                 double const column = gas_.density[cell] * g * (height - grid_.centre(i, j, k).z);
+                double const slope = gas_.pressure[cell] - gas_.pressure[grid_.at(i, j, k + 1)];
+                double const plate = gas_.pressure[cell] + 0.5 * (1 - gas_.voidage[cell]) * slope;
                 double const area = grid_.open_area[2][cell];
                 sums[plate_area] += area;
-                sums[plate_pressure] += area * (gas_.pressure[cell] - column);
+                sums[plate_pressure] += area * (plate - column);
             }
         });
     }
