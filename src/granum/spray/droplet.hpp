@@ -32,7 +32,7 @@ struct Droplet
     double water = 0, solute = 0;  //!< kg of one real droplet
     double temperature = 0;        //!< K, uniform
     double age = 0, path = 0;      //!< s, m
-    double delay = 0;              //!< s of the present step that pass before it leaves the nozzle
+    double delay = 0;              //!< s of the coming step that pass before it flies; negative: s that it lags behind
 
     //! kg of all real droplets.
     double solids() const { return weight * solute; }

@@ -135,7 +135,8 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
                 }
             }
             if (!gone && left > 0 && !around.mine(droplet.position)) {
-                // Crosses to a neighbour in mid-step: it rests there until the next step (at most dt behind).
+                // Crosses to a neighbour in mid-step, which flies it in the next step for what is left of this one too.
+                droplet.delay = -left;
                 left = 0;
             }
         }
