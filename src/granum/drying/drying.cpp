@@ -64,16 +64,17 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
         for (std::size_t k = 0; k < open.size(); ++k) {
             Deposit& deposit = open[k];
             double const foot = math::pi * deposit.base_radius * deposit.base_radius;
-            double const rate = std::visit(
-                [&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
-                settings_.combine);
+            double const rate =
+                std::visit([&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
+                           settings_.combine);
             double const dry = settings_.end_moisture * liquid.feed_moisture * deposit.solute;
             double const leaving = deposit.weight * rate * dt;
             double fraction = 1;  // of the step until the deposit is dry
             double gone = leaving;
             bool const ends = deposit.water - leaving <= dry;
             if (ends) {
-                fraction = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 0.0, 1.0) : 1;
+                // One that arrives as dry as that still meets the gas for a moment, so that its means are not 0 / 0.
+                fraction = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 1e-9, 1.0) : 1;
                 gone = deposit.water;
             }
             double const moisture = deposit.water / deposit.solute;
@@ -94,7 +95,7 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
                 continue;
             }
             Event event = deposit.record;
-            double const time = std::max(deposit.time, 1e-12);
+            double const time = deposit.time;
             event.granule = static_cast<double>(granules.id[row]);
             event.t_dry_end = now - dt + h;
             event.solids = deposit.solute;
@@ -105,7 +106,8 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             event.mean_drying_potential = deposit.drying_potential / time;
             event.mean_granule_temperature = deposit.granule_temperature / time;
             event.mean_slip = deposit.slip / time;
-            event.mean_flux = deposit.water_at_impact / (deposit.weight * foot * time);
+            // Without the trace, which leaves at once at the end.
+            event.mean_flux = std::max(deposit.water_at_impact - dry, 0.0) / (deposit.weight * foot * time);
             event.porosity =
                 settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
             dried_solids += deposit.solute;

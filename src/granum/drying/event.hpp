@@ -60,7 +60,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"mean_drying_potential", "1", "mean local drying potential over the drying time"},
     {"mean_granule_temperature", "K", "mean over the drying time"},
     {"mean_slip", "m/s", "mean over the drying time"},
-    {"mean_flux", "kg/m2/s", "evaporated water per footprint and drying time"},
+    {"mean_flux", "kg/m2/s", "evaporated water, less the trace at the end, per footprint and drying time"},
     {"max_flux", "kg/m2/s", "largest evaporation per footprint"},
     {"constant_rate_time", "s", "time until the solution was saturated (solutions)"},
     {"initial", "1", "1: placed by the quasi-steady start, not sprayed"},
