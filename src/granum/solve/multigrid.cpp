@@ -113,7 +113,10 @@ void Multigrid::set_up(grid::Field const& diagonal, grid::FaceField const& link)
     HYPRE_StructPFMGSetMaxIter(in.cycle, 1);
     HYPRE_StructPFMGSetTol(in.cycle, 0.0);
     HYPRE_StructPFMGSetZeroGuess(in.cycle);
-    HYPRE_StructPFMGSetRelaxType(in.cycle, 2);  // red-black, symmetric, as conjugate gradients ask
+    // Symmetric, as conjugate gradients ask: red-black, but weighted Jacobi in a periodic box, whose coarsest cells are
+    // their own neighbours and have no two colours: red-black does not converge there.
+    bool const wraps = in.grid.periodic[0] || in.grid.periodic[1] || in.grid.periodic[2];
+    HYPRE_StructPFMGSetRelaxType(in.cycle, wraps ? 1 : 2);
     HYPRE_StructPFMGSetRAPType(in.cycle, 0);
     HYPRE_StructPFMGSetSkipRelax(in.cycle, 1);
     HYPRE_StructPFMGSetNumPreRelax(in.cycle, 1);

@@ -98,6 +98,15 @@ TEST(Pressure, multigrid_equals_the_reference_in_a_periodic_box)
     expect_agreement(make_grid({16, 8, 32}, {true, true, true}, comm, false), comm, Ends::closed);
 }
 
+TEST(Pressure, multigrid_equals_the_reference_in_a_box_that_is_periodic_sideways)
+{
+    par::Communicator const comm;
+    for (auto const ends : {Ends::closed, Ends::open_top}) {
+        expect_agreement(make_grid({4, 4, 24}, {true, true, false}, comm, false), comm, ends);
+        expect_agreement(make_grid({8, 6, 16}, {true, false, false}, comm, false), comm, ends);
+    }
+}
+
 TEST(Pressure, periodic_sizes_that_hypre_cannot_halve_use_the_reference)
 {
     par::Communicator const comm;
