@@ -13,20 +13,22 @@
 
 namespace granum::scene
 {
-//! The resolved case that `text` describes. Throws base::CaseError as the program would.
-inline sim::Case case_of(std::string const& text)
+//! The resolved case that `text` describes; `granules` is what its granules.file "granules.csv" holds. Throws
+//! base::CaseError as the program would.
+inline sim::Case case_of(std::string const& text, std::string const& granules = "")
 {
     TemporaryFolder const folder;
     auto const path = folder / "case.toml";
     std::ofstream(path) << text;
+    if (!granules.empty()) std::ofstream(folder / "granules.csv") << granules;
     return sim::read_case(path).data;
 }
 
 //! The simulation of the case in `text` at time zero, on one rank.
-inline std::unique_ptr<sim::Simulation> simulation_of(std::string const& text)
+inline std::unique_ptr<sim::Simulation> simulation_of(std::string const& text, std::string const& granules = "")
 {
     static par::Communicator const alone{MPI_COMM_SELF};
-    return std::make_unique<sim::Simulation>(case_of(text), alone);
+    return std::make_unique<sim::Simulation>(case_of(text, granules), alone);
 }
 
 //! A vector as a case has it: ["1 m", "2 m", "3 m"], to the last digit.

@@ -1,6 +1,7 @@
 // Ledgers: what is there now must be what was there at the start, plus what came in, minus what went out.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -100,9 +100,10 @@ Readings Simulation::readings() const
     }
     if (sums[plate_area] > 0) r.pressure_drop = sums[plate_pressure] / sums[plate_area];
     if (sums[solids_volume] > 0) {
-        double const density = solver_->settings().density ? *solver_->settings().density
-                                                           : air::density(case_.gas.pressure, r.bed_temperature,
-                                                                          air::fraction(r.outlet_humidity));
+        double const humidity = std::isfinite(r.outlet_humidity) ? r.outlet_humidity : case_.gas.inlet.humidity;
+        double const density = solver_->settings().density
+                                   ? *solver_->settings().density
+                                   : air::density(case_.gas.pressure, r.bed_temperature, air::fraction(humidity));
         double const area = sums[solids_area] / sums[solids_volume];
         double downward = 0;  // momentum flow of the nozzles' jets, N
         for (auto const& nozzle : nozzles_) downward -= nozzle.momentum() * nozzle.direction.z;

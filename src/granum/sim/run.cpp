@@ -62,10 +62,13 @@ class LiveLine
         if (!shown_ || simulation.time() <= 0 || now - last_ < (terminal_ ? 0.5 : 20.0)) return;
         last_ = now;
         double const speed = simulation.time() / now, left = (end_ - simulation.time()) / std::max(speed, 1e-12);
-        auto const line = fmt::format(
-            "{:7.3f} s of {:g} s  {:6.2f} ms/s  {:3.0f}:{:02.0f} left  bed {:.2f} degC  outlet {:.2f} g/kg  eta {:.4f}",
-            simulation.time(), end_, 1e3 * speed, std::floor(left / 60), std::fmod(left, 60.0),
-            sample.readings.bed_temperature - 273.15, 1e3 * sample.readings.outlet_humidity, sample.readings.eta);
+        auto const& readings = sample.readings;
+        auto line = fmt::format("{:7.3f} s of {:g} s  {:6.2f} ms/s  {:3.0f}:{:02.0f} left", simulation.time(), end_,
+                                1e3 * speed, std::floor(left / 60), std::fmod(left, 60.0));
+        if (simulation.has_gas()) line += fmt::format("  bed {:.2f} degC", readings.bed_temperature - 273.15);
+        if (std::isfinite(readings.outlet_humidity))
+            line += fmt::format("  outlet {:.2f} g/kg", 1e3 * readings.outlet_humidity);
+        if (std::isfinite(readings.eta)) line += fmt::format("  eta {:.4f}", readings.eta);
         fmt::print(stderr, fmt::runtime(terminal_ ? "\r{}\033[K" : "{}\n"), line);
         std::fflush(stderr);
         dirty_ = terminal_;
@@ -80,6 +83,25 @@ class LiveLine
     double end_, last_ = -1e9;
     Clock::time_point start_ = Clock::now();
 };
+
+//! What this rank had when it failed, for ParaView: one file per rank, since the others may not answer any more.
+void write_failed_state(std::string const& folder, Simulation& simulation)
+{
+    auto const& g = simulation.granules();
+    std::vector<io::NamedArray> arrays{{.name = "id", .values = {}, .precision = io::Precision::twice},
+                                       {.name = "radius [m]", .values = {}},
+                                       {.name = "temperature [K]", .values = {}},
+                                       {.name = "velocity [m/s]", .values = {}, .components = 3}};
+    for (std::size_t row = 0; row < g.owned; ++row) {
+        arrays[0].values.push_back(static_cast<double>(g.id[row]));
+        arrays[1].values.push_back(g.radius[row]);
+        arrays[2].values.push_back(g.temperature[row]);
+        auto const v = g.velocity[row];
+        arrays[3].values.insert(arrays[3].values.end(), {v.x, v.y, v.z});
+    }
+    io::write_points(fmt::format("{}/vtk/failed_rank_{}.vtp", folder, simulation.comm().rank()),
+                     std::span(g.position.values).first(g.owned), arrays);
+}
 
 std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::string> warnings)
 {
@@ -163,7 +185,14 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         stopped = comm.max(stop_requested() ? 1L : 0L) > 0;
         if (stopped) break;
         double const goal = std::min({end, next_sample, next_picture});
-        simulation.step(goal - simulation.time());
+        try {
+            simulation.step(goal - simulation.time());
+        } catch (base::NumericsError const& error) {
+            live.end();
+            log->error("{}", error.what());
+            write_failed_state(options.folder, simulation);
+            throw;
+        }
         look(false);
     }
     look(true);

@@ -162,7 +162,10 @@ std::string closing_words(std::string const& summary_json)
             p["p10"].get<double>(), p["p50"].get<double>(), p["p90"].get<double>());
         out += fmt::format("                  {}\n", product["notice"].get<std::string>());
     }
-    if (s.contains("balance"))
+    auto const known = [](json const& part, std::initializer_list<char const*> keys) {
+        return std::all_of(keys.begin(), keys.end(), [&](char const* key) { return part[key].is_number(); });
+    };
+    if (s.contains("balance") && known(s["result"], {"eta_global", "outlet_humidity", "outlet_temperature_K"}))
         out += fmt::format(
             "drying potential  {:.4f} (balance {:.4f}); outlet {:.2f} g/kg (balance {:.2f}), {:.1f} degC (balance "
             "{:.1f})\n",
@@ -170,13 +173,13 @@ std::string closing_words(std::string const& summary_json)
             1e3 * s["result"]["outlet_humidity"].get<double>(), 1e3 * s["balance"]["outlet_humidity"].get<double>(),
             s["result"]["outlet_temperature_K"].get<double>() - 273.15,
             s["balance"]["outlet_temperature_K"].get<double>() - 273.15);
-    if (s.contains("bed"))
+    if (s.contains("bed") && known(s["bed"], {"pressure_drop_Pa", "weight_over_area_Pa"}))
         out += fmt::format("bed               pressure drop {:.1f} Pa, weight over area {:.1f} Pa\n",
                            s["bed"]["pressure_drop_Pa"].get<double>(), s["bed"]["weight_over_area_Pa"].get<double>());
-    out += fmt::format("ledgers           solids {:.1e}, water {:.1e}, energy {:.1e} (relative)\n",
-                       s["ledger"]["solids"]["relative_error"].get<double>(),
-                       s["ledger"]["water"]["relative_error"].get<double>(),
-                       s["ledger"]["energy"]["relative_error"].get<double>());
+    out += fmt::format(
+        "ledgers           solids {:.1e}, water {:.1e}, energy {:.1e}, momentum {:.1e} (relative)\n",
+        s["ledger"]["solids"]["relative_error"].get<double>(), s["ledger"]["water"]["relative_error"].get<double>(),
+        s["ledger"]["energy"]["relative_error"].get<double>(), s["ledger"]["momentum"]["relative_error"].get<double>());
     return out;
 }
 }
