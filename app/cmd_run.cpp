@@ -5,6 +5,7 @@
 #include "granum/base/error.hpp"
 #include "granum/io/units.hpp"
 #include "granum/report/report.hpp"
+#include "granum/sim/build.hpp"
 #include "granum/sim/case_reader.hpp"
 #include "granum/sim/run.hpp"
 #include "granum/sim/stop.hpp"
@@ -59,7 +60,7 @@ std::optional<double> read_until(Wish const& wish)
 //! As many ranks as there are cores, but each with at least two layers of cells of its slab.
 int choose_ranks(Wish const& wish, sim::Case const& data)
 {
-    int const most = data.gas.present ? data.gas.cells[0] : 1;
+    int const most = sim::cells(data)[0];
     if (wish.ranks > most && wish.ranks > 1)
         throw base::CaseError({{"",
                                 0,

@@ -16,7 +16,7 @@ namespace granum::scene
 inline void write_lab_case(std::string const& path, std::map<std::string, std::string> changes = {},
                            std::string const& more = "")
 {
-    changes.try_emplace("parcels", "6000");
+    changes.try_emplace("parcels", "3500");
     changes.try_emplace("cells", "[12, 12, 48]");
     std::ifstream in(GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml");
     std::ofstream out(path);
