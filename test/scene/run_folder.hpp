@@ -200,7 +200,7 @@ inline void write_run_folder(std::string const& path, RunFolderScene const& scen
     write_run_events(path + "/events.h5", scene);
     io::write_snapshot(path + "/snapshots.h5", bed_snapshot(scene));
     io::replace_text(path + "/resolved.txt", "title = \"" + scene.title +
-                                              "\"\n\n[granules]\ndiameter = \"0.6 mm\"  # given\nmass = \"1 kg\"\n");
+                                                 "\"\n\n[granules]\ndiameter = \"0.6 mm\"  # given\nmass = \"1 kg\"\n");
     io::replace_text(path + "/granum.log", "Granum\nwarning: made for a test\n");
 }
 }

@@ -11,7 +11,15 @@
 
 namespace granum::base
 {
-enum class Exit : int { done = 0, usage = 2, numerics = 70, io = 74, stopped = 75, interrupted = 130 };
+enum class Exit : int
+{
+    done = 0,
+    usage = 2,
+    numerics = 70,
+    io = 74,
+    stopped = 75,
+    interrupted = 130
+};
 
 //! Thrown for anything that ends the program; `exit` is its status.
 struct Error : std::runtime_error
@@ -23,10 +31,10 @@ struct Error : std::runtime_error
 //! One wrong entry of a case file, in the grammar "file:line: key = value is not ...".
 struct Mistake
 {
-    std::string file;   //!< path as the user typed it
-    int line = 0;       //!< 1-based; 0 where the mistake has no line (a missing file)
-    std::string entry;  //!< `key = value` as written, or the key alone
-    std::string what;   //!< what is wrong, to be read after the entry
+    std::string file;                //!< path as the user typed it
+    int line = 0;                    //!< 1-based; 0 where the mistake has no line (a missing file)
+    std::string entry;               //!< `key = value` as written, or the key alone
+    std::string what;                //!< what is wrong, to be read after the entry
     std::vector<std::string> hints;  //!< known or allowed values, likely fix: one line each
 
     std::string text() const
@@ -74,10 +82,11 @@ void require(bool condition, fmt::format_string<Arguments...> what, Arguments&&.
 
 // A condition that only a defect of ours can break; compiled into debug and audit builds.
 #ifdef GRANUM_CHECKS
-#define GRANUM_EXPECT(condition)                                                                          \
-    do {                                                                                                  \
-        if (!(condition))                                                                                 \
-            throw ::granum::base::NumericsError(fmt::format("{}:{}: broken promise: {}", __FILE__, __LINE__, #condition)); \
+#define GRANUM_EXPECT(condition)                                                           \
+    do {                                                                                   \
+        if (!(condition))                                                                  \
+            throw ::granum::base::NumericsError(                                           \
+                fmt::format("{}:{}: broken promise: {}", __FILE__, __LINE__, #condition)); \
     } while (false)
 #else
 #define GRANUM_EXPECT(condition) static_cast<void>(0)

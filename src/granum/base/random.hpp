@@ -23,7 +23,16 @@ constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> count
 }
 
 //! What a stream is for: streams of different purposes never share a draw.
-enum class Purpose : std::uint32_t { packing = 1, sizes, droplet, capture, impact, deposit, test };
+enum class Purpose : std::uint32_t
+{
+    packing = 1,
+    sizes,
+    droplet,
+    capture,
+    impact,
+    deposit,
+    test
+};
 
 //! A stream of numbers for one (seed, purpose, id, step).
 class Random

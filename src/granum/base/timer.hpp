@@ -7,7 +7,16 @@
 
 namespace granum::base
 {
-enum class Stage { contacts, neighbours, gas, exchange, spray_and_drying, output, count };
+enum class Stage
+{
+    contacts,
+    neighbours,
+    gas,
+    exchange,
+    spray_and_drying,
+    output,
+    count
+};
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> stage_names{
     "contacts", "neighbours", "gas", "exchange", "spray_and_drying", "output"};
 

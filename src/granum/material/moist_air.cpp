@@ -32,7 +32,8 @@ double relative_humidity(double temperature, double humidity, double pressure)
 double dew_point(double humidity, double pressure)
 {
     double const partial = pressure * humidity / (molar_ratio + humidity);
-    return math::brent_root([partial](double t) { return std::log(saturation_pressure(t) / partial); }, 173.15, 473.15, 1e-9);
+    return math::brent_root([partial](double t) { return std::log(saturation_pressure(t) / partial); }, 173.15, 473.15,
+                            1e-9);
 }
 
 WetBulb wet_bulb(double temperature, double humidity, double pressure)

@@ -1,8 +1,8 @@
 // Root of one equation in one unknown by Brent's method.
 #pragma once
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 

@@ -19,11 +19,26 @@ Communicator::Communicator(MPI_Comm handle) : handle_(handle)
     MPI_Comm_size(handle_, &size_);
 }
 
-double Communicator::sum(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_SUM); }
-long Communicator::sum(long value) const { return reduce(handle_, value, MPI_LONG, MPI_SUM); }
-double Communicator::max(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MAX); }
-double Communicator::min(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MIN); }
-long Communicator::max(long value) const { return reduce(handle_, value, MPI_LONG, MPI_MAX); }
+double Communicator::sum(double value) const
+{
+    return reduce(handle_, value, MPI_DOUBLE, MPI_SUM);
+}
+long Communicator::sum(long value) const
+{
+    return reduce(handle_, value, MPI_LONG, MPI_SUM);
+}
+double Communicator::max(double value) const
+{
+    return reduce(handle_, value, MPI_DOUBLE, MPI_MAX);
+}
+double Communicator::min(double value) const
+{
+    return reduce(handle_, value, MPI_DOUBLE, MPI_MIN);
+}
+long Communicator::max(long value) const
+{
+    return reduce(handle_, value, MPI_LONG, MPI_MAX);
+}
 
 void Communicator::sum(std::span<double> values) const
 {
@@ -31,7 +46,10 @@ void Communicator::sum(std::span<double> values) const
         MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
 }
 
-void Communicator::barrier() const { MPI_Barrier(handle_); }
+void Communicator::barrier() const
+{
+    MPI_Barrier(handle_);
+}
 
 std::vector<std::byte> Communicator::exchange(std::span<std::byte const> out, int to, int from) const
 {
@@ -41,8 +59,8 @@ std::vector<std::byte> Communicator::exchange(std::span<std::byte const> out, in
     long theirs = 0;
     MPI_Sendrecv(&mine, 1, MPI_LONG, to_rank, 1, &theirs, 1, MPI_LONG, from_rank, 1, handle_, MPI_STATUS_IGNORE);
     std::vector<std::byte> in(static_cast<std::size_t>(theirs));
-    MPI_Sendrecv(out.data(), static_cast<int>(mine), MPI_BYTE, to_rank, 2, in.data(), static_cast<int>(theirs), MPI_BYTE,
-                 from_rank, 2, handle_, MPI_STATUS_IGNORE);
+    MPI_Sendrecv(out.data(), static_cast<int>(mine), MPI_BYTE, to_rank, 2, in.data(), static_cast<int>(theirs),
+                 MPI_BYTE, from_rank, 2, handle_, MPI_STATUS_IGNORE);
     return in;
 }
 

@@ -10,9 +10,9 @@ namespace granum::par
 {
 struct Slabs
 {
-    double origin = 0;      //!< lower end of the domain along x, m
-    double width = 1;       //!< of one cell along x, m
-    bool periodic = false;  //!< along x
+    double origin = 0;             //!< lower end of the domain along x, m
+    double width = 1;              //!< of one cell along x, m
+    bool periodic = false;         //!< along x
     std::vector<int> first{0, 1};  //!< first[r] is the first cell of rank r; first.back() the number of cells
 
     int ranks() const { return static_cast<int>(first.size()) - 1; }

@@ -19,12 +19,13 @@ enum class Attraction
 //! F = k overlap - c speed, k = 4/3 E* a, c = 2 g sqrt(S m*), S = 2 E* a, a = sqrt(R* overlap).
 struct HertzTsuji
 {
-    static constexpr base::Card card{.name = "hertz-tsuji",
-                                     .title = "Hertz spring with Tsuji damping",
-                                     .source = "Tsuji, Tanaka and Ishida, Powder Technol. 71 (1992) 239 (recalled, unverified)",
-                                     .valid =
-                                         "elastic spheres, overlap small against the radius; damping fitted for "
-                                         "restitution from 0.1 to 1, extrapolated below"};
+    static constexpr base::Card card{
+        .name = "hertz-tsuji",
+        .title = "Hertz spring with Tsuji damping",
+        .source = "Tsuji, Tanaka and Ishida, Powder Technol. 71 (1992) 239 (recalled, unverified)",
+        .valid =
+            "elastic spheres, overlap small against the radius; damping fitted for "
+            "restitution from 0.1 to 1, extrapolated below"};
     Attraction attraction = Attraction::cut;
 
     //! The g that gives `restitution` (clamped to [1e-3, 1]), dimensionless.

@@ -9,10 +9,11 @@ namespace granum::law::contact
 //! M <- M - k_r omega dt in the plane of the contact, |M| <= mu_r R* F_n, k_r = k_t R*^2; no viscous part.
 struct Epsd
 {
-    static constexpr base::Card card{.name = "epsd",
-                                     .title = "Elastic-plastic spring without dashpot",
-                                     .source = "Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011) 269 (recalled, unverified)",
-                                     .valid = "time step below 0.2 sqrt(I / k_r); a granule at rest rocks a little"};
+    static constexpr base::Card card{
+        .name = "epsd",
+        .title = "Elastic-plastic spring without dashpot",
+        .source = "Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011) 269 (recalled, unverified)",
+        .valid = "time step below 0.2 sqrt(I / k_r); a granule at rest rocks a little"};
 
     //! Moves `torque` (N m, on the first partner) on by the relative spin (rad/s, first against second) times dt.
     RollingTorque operator()(Pair const& pair, Approach const& at, NormalForce const& normal,
