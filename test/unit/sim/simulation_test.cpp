@@ -1,0 +1,166 @@
+// What the whole step promises: goals met exactly, a bed that starts as wet as it will stay, nothing unaccounted for.
+#include "scene/case_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace granum;
+using namespace granum::sim;
+
+TEST(Ledger, is_what_was_there_plus_what_came_less_what_went)
+{
+    Ledger ledger{.name = "water", .unit = "kg", .bar = 1e-9, .start = 2, .in = 5, .out = 3, .now = 4};
+    EXPECT_EQ(ledger.residual(), 0);
+    EXPECT_EQ(ledger.relative_error(), 0);
+    ledger.now = 4 + 4e-9;  // of 8 kg that passed
+    EXPECT_NEAR(ledger.relative_error(), 0.5e-9, 1e-16);
+    EXPECT_FALSE(ledger.broken());
+    ledger.now = 4 - 8.1e-8;
+    EXPECT_TRUE(ledger.broken());
+    EXPECT_LT(ledger.residual(), 0);
+}
+
+TEST(Ledger, without_flows_is_measured_against_its_reference)
+{
+    Ledger ledger{.start = 1, .now = 1 + 1e-9, .reference = 0.1};
+    EXPECT_NEAR(ledger.relative_error(), 1e-8, 1e-14);
+    EXPECT_EQ(Ledger{}.relative_error(), 0);
+}
+
+//! Two granules that float in a box without gas and without weight.
+std::string const two_granules = R"(
+gravity = ["0 m/s2", "0 m/s2", "0 m/s2"]
+[apparatus]
+shape = "box"
+size = ["100 mm", "100 mm", "100 mm"]
+[granules]
+diameter = "2 mm"
+density = "1000 kg/m3"
+[contact]
+youngs_modulus = "10 MPa"
+[time]
+duration = "1 s"
+[[granule]]
+position = ["50 mm", "50 mm", "10 mm"]
+velocity = ["0 m/s", "0 m/s", "0.1 m/s"]
+[[granule]]
+position = ["50 mm", "50 mm", "60 mm"]
+diameter = "4 mm"
+)";
+
+TEST(Simulation, of_granules_alone_reads_height_and_energy_of_the_bed)
+{
+    auto const simulation = scene::simulation_of(two_granules);
+    auto const readings = simulation->readings();
+    // Masses 1 to 8: the mean height of the mass is (10 + 8 * 60) / 9 mm, the bed's height twice that.
+    EXPECT_NEAR(readings.height, 2 * 0.490 / 9, 1e-12);
+    EXPECT_NEAR(readings.kinetic_energy, 0.5 * 1000 * math::pi / 6 * 8e-9 * 0.01, 1e-18);
+    EXPECT_EQ(readings.bed_moisture, 0);
+    EXPECT_FALSE(simulation->has_gas());
+    EXPECT_TRUE(simulation->take_events().empty());
+}
+
+TEST(Simulation, ends_its_steps_on_the_goal_and_makes_them_equal)
+{
+    auto const simulation = scene::simulation_of(two_granules);
+    double const goal = 100.37 * simulation->granule_dt();
+    std::vector<double> steps;
+    while (simulation->time() < goal * (1 - 1e-12)) {
+        double const before = simulation->time();
+        simulation->step(goal - before);
+        steps.push_back(simulation->time() - before);
+    }
+    EXPECT_NEAR(simulation->time(), goal, 1e-12 * goal);
+    EXPECT_EQ(simulation->steps(), static_cast<long>(steps.size()));
+    for (double const step : steps) EXPECT_NEAR(step, steps.front(), 1e-9 * step);
+    // The free granule is where its speed has brought it.
+    for (std::size_t row = 0; row < simulation->granules().owned; ++row)
+        if (simulation->granules().id[row] == 0) {
+            EXPECT_NEAR(simulation->granules().position[row].z, 0.010 + 0.1 * goal, 1e-12);
+        }
+}
+
+//! The recipe of the lab example with few parcels and coarse cells, and a wide cone that meets the wall, too.
+std::string const spray_bed = R"(
+[apparatus]
+shape = "revolution"
+profile = [["0 mm", "180 mm"], ["450 mm", "250 mm"], ["1000 mm", "250 mm"]]
+[gas]
+dry_mass_flow = "0.04 kg/s"
+temperature = "80 degC"
+humidity = "8 g/kg"
+cells = [8, 8, 32]
+[granules]
+diameter = "0.6 mm"
+density = "1445 kg/m3"
+mass = "1 kg"
+parcels = 1500
+start = "loose"
+[contact]
+youngs_modulus = "10 MPa"
+[spray]
+liquid = "sodium-benzoate-30"
+rate = "1.2 kg/h"
+solids_fraction = "30 %"
+[[nozzle]]
+position = ["0 mm", "0 mm", "300 mm"]
+direction = [0, 0, -1]
+half_angle = "60 deg"
+air = "1.2 kg/h"
+[time]
+duration = "1 s"
+)";
+
+TEST(SprayedBed, starts_as_wet_as_the_spray_keeps_it)
+{
+    // Before the first droplets arrive, the deposits of the start must evaporate what the spray will bring.
+    for (std::string const law : {"cap", "combined", "boundary-layer"}) {
+        auto const simulation = scene::simulation_of(spray_bed + "[drying]\ndeposit = \"" + law + "\"\n");
+        EXPECT_GT(simulation->readings().water_on_granules, 0);
+        while (simulation->time() < 0.004 * (1 - 1e-12)) simulation->step(0.004 - simulation->time());
+        double const sprayed = 1.2 / 3600 * 0.7 * 0.004;
+        auto const totals = simulation->totals();
+        EXPECT_EQ(totals.hits, 0);
+        EXPECT_NEAR(totals.water, sprayed, 0.02 * sprayed);
+        EXPECT_NEAR(totals.evaporated, sprayed, 0.15 * sprayed) << law;
+    }
+}
+
+TEST(SprayedBed, accounts_for_all_that_was_sprayed)
+{
+    auto const simulation = scene::simulation_of(spray_bed);
+    double const wet = simulation->readings().water_on_granules;
+    double solids = 0, initial = 0;
+    long events = 0;
+    for (double const goal : {0.01, 0.03, 0.08}) {
+        while (simulation->time() < goal * (1 - 1e-12)) simulation->step(goal - simulation->time());
+        auto const t = simulation->totals();
+        EXPECT_NEAR(t.solids, 1.2 / 3600 * 0.3 * goal, 1e-3 * t.solids);
+        EXPECT_NEAR(t.deposited + t.walls + t.overspray + t.in_flight, t.solids, 1e-12 * t.solids);
+        double in_flight = 0;
+        for (auto const& droplet : simulation->droplets()) in_flight += droplet.liquid_water();
+        EXPECT_LE(t.evaporated + simulation->readings().water_on_granules + in_flight, t.water + wet);
+        for (auto const& event : simulation->take_events()) {
+            (event.initial > 0 ? initial : solids) += event.solids;
+            ++events;
+        }
+    }
+    auto const t = simulation->totals();
+    EXPECT_GT(t.deposited, 0);
+    EXPECT_GT(t.hits, 100);
+    EXPECT_GT(events, 100);
+    EXPECT_GT(initial, 0);
+    EXPECT_LE(solids, t.deposited * (1 + 1e-12));
+    double layer = 0;
+    auto const& granules = simulation->granules();
+    for (std::size_t row = 0; row < granules.owned; ++row) layer += granules.layer_mass[row];
+    EXPECT_NEAR(layer, solids + initial, 1e-12 * layer);
+    EXPECT_LT(simulation->ledgers().solids.relative_error(), 1e-9);
+    EXPECT_LT(simulation->ledgers().water.relative_error(), 1e-9);
+    EXPECT_LT(simulation->ledgers().energy.relative_error(), 1e-6);
+    EXPECT_LT(simulation->ledgers().momentum, 1e-12);
+}
+}
