@@ -51,8 +51,8 @@ inline int processes_with(std::string const& word)
 class Program
 {
   public:
-    //! Starts `granum` with these words; both its streams go to the file `said`. The test itself may be an MPI process,
-    //! so what MPI left in the environment is kept from the child.
+    //! Starts `granum` with these words; its streams go to the files `said` and `said`.errors. The test itself may be
+    //! an MPI process, so what MPI left in the environment is kept from the child.
     Program(std::vector<std::string> words, std::string said) : said_(std::move(said))
     {
         words.insert(words.begin(), GRANUM_PROGRAM);
@@ -69,9 +69,8 @@ class Program
         child_ = fork();
         if (child_ < 0) throw std::runtime_error("cannot start a process");
         if (child_ > 0) return;
-        int const file = open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        dup2(file, 1);
-        dup2(file, 2);
+        dup2(open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+        dup2(open((said_ + ".errors").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
         execve(GRANUM_PROGRAM, arguments.data(), environment.data());
         _exit(127);
     }
@@ -95,6 +94,7 @@ class Program
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     std::string said() const { return text_of(said_); }
+    std::string errors() const { return text_of(said_ + ".errors"); }
 
   private:
     std::string said_;

@@ -174,7 +174,7 @@ void write_surface(std::string const& path, Surface const& surface)
 
 void Collection::add(double time, std::string const& file)
 {
-    entries_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, attribute(file));
+    entries_ += fmt::format("<DataSet timestep=\"{:.12g}\" part=\"0\" file=\"{}\"/>\n", time, attribute(file));
     replace_text(path_, document("Collection", "<Collection>\n" + entries_ + "</Collection>\n"));
 }
 }

@@ -145,7 +145,8 @@ std::vector<spray::Nozzle> nozzles(Case const& data)
                        .rate = s.rate * share,
                        .median = s.droplet_median,
                        .spread = s.droplet_spread,
-                       .parcels_per_second = s.parcels_per_second * share});
+                       .parcels_per_second = s.parcels_per_second * share,
+                       .number = out.size()});
     return out;
 }
 

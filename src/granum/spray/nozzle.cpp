@@ -56,14 +56,14 @@ std::vector<Droplet> Nozzle::emit(double now, double dt, Liquid const& liquid, s
     std::vector<Droplet> out;
     if (rate <= 0) return out;
     // Parcel number n leaves at (n + 0.5) / parcels_per_second: the count does not depend on the steps taken.
-    auto const number = [this](double t) {
+    auto const left_by = [this](double t) {
         return static_cast<std::uint64_t>(std::max(0.0, std::floor(t * parcels_per_second + 0.5)));
     };
     auto const [right, up] = frame(direction);
     double const parcel_mass = rate / parcels_per_second;
-    for (std::uint64_t n = number(now); n < number(now + dt); ++n) {
-        base::Random random(seed, base::Purpose::droplet, n, 0);
-        Droplet droplet{.id = n};
+    for (std::uint64_t n = left_by(now); n < left_by(now + dt); ++n) {
+        Droplet droplet{.id = n + (number << 40)};
+        base::Random random(seed, base::Purpose::droplet, droplet.id, 0);
         double const diameter = law::droplet::sample_volume_weighted(median, spread, random.normal());
         double const mass = liquid.density * math::pi / 6 * diameter * diameter * diameter;
         droplet.solute = mass * liquid.solids_fraction;

@@ -26,6 +26,7 @@ struct Nozzle
     double rate = 0;                                           //!< kg/s of liquid
     double median = 40e-6, spread = 1.6;  //!< of the volume distribution: m, geometric standard deviation
     double parcels_per_second = 2e4;
+    std::uint64_t number = 0;  //!< among the nozzles: none shares identities or draws with another
 
     double momentum() const { return air_mass_flow * air_velocity; }  //!< N
 

@@ -32,7 +32,7 @@ class Stopped : public ::testing::TestWithParam<int>
     {
         fs::remove(in_run("report.html"));
         scene::Program report({"report", run_}, said_);
-        EXPECT_EQ(report.wait(), 0) << report.said();
+        EXPECT_EQ(report.wait(), 0) << report.errors();
         EXPECT_GT(scene::text_of(in_run("report.html")).size(), 1000u);
     }
 };
@@ -63,9 +63,9 @@ TEST_P(Stopped, first_signal_leaves_complete_results)
             std::error_code none;
             auto const size = fs::file_size(in_run("timeseries.csv"), none);
             return !none && size > 6000;
-        })) << program.said();
+        })) << program.errors();
         program.signal(signal);
-        EXPECT_EQ(program.wait(), 130) << program.said();
+        EXPECT_EQ(program.wait(), 130) << program.errors();
 
         auto const summary = json::parse(scene::text_of(in_run("summary.json")));
         EXPECT_EQ(summary["ended"], "stopped");
@@ -99,11 +99,11 @@ TEST_P(Stopped, second_signal_ends_at_once)
     // a second between the signals, so the second one meets a program that has not yet got to the first.
     scene::write_lab_case(case_, {{"parcels", "100000"}, {"start", "\"settled\""}});
     scene::Program program(run_words(), said_);
-    ASSERT_TRUE(scene::eventually([&] { return !scene::text_of(in_run("granum.log")).empty(); })) << program.said();
+    ASSERT_TRUE(scene::eventually([&] { return !scene::text_of(in_run("granum.log")).empty(); })) << program.errors();
     program.signal(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     program.signal(SIGINT);
-    EXPECT_EQ(program.wait(), 130) << program.said();
+    EXPECT_EQ(program.wait(), 130) << program.errors();
     EXPECT_FALSE(fs::exists(in_run("summary.json"))) << "results take the time that was not granted";
     EXPECT_TRUE(scene::eventually([&] { return scene::processes_with(run_) == 0; })) << "a rank works on";
 }
@@ -142,8 +142,8 @@ interval = "10 us"
 series_interval = "5 us"
 )";
     scene::Program program(run_words(), said_);
-    EXPECT_EQ(program.wait(), 70) << program.said();
-    auto const words = program.said();
+    EXPECT_EQ(program.wait(), 70) << program.errors();
+    auto const words = program.errors();
     EXPECT_NE(words.find("granules 0 and 1 overlap"), std::string::npos) << words;
     EXPECT_EQ(words.find("overlap", words.find("overlap by") + 10), std::string::npos) << "said once:\n" << words;
 
@@ -170,7 +170,7 @@ TEST(Ranks, one_and_two_tell_the_same_at_first)
         scene::Program program(
             {"run", folder / "case.toml", "-n", std::to_string(ranks), "-o", run, "--until", "50 ms", "--json"},
             folder / "said");
-        ASSERT_EQ(program.wait(), 0) << program.said();
+        ASSERT_EQ(program.wait(), 0) << program.errors();
         summary[ranks] = json::parse(scene::text_of(run + "/summary.json"));
         series[ranks] = io::read_series(run + "/timeseries.csv");
         EXPECT_EQ(summary[ranks]["run"]["ranks"], ranks);

@@ -47,6 +47,18 @@ TEST(Nozzle, sprays_its_rate_however_long_the_steps)
     EXPECT_NEAR(solids, 0.3 * mass, 1e-12 * mass);
 }
 
+TEST(Nozzle, shares_no_identity_and_no_draw_with_another)
+{
+    auto second = laboratory();
+    second.number = 1;
+    auto const some = spray(laboratory(), 0.01, 1e-3), others = spray(second, 0.01, 1e-3);
+    ASSERT_EQ(some.size(), others.size());
+    for (std::size_t n = 0; n < some.size(); ++n) {
+        EXPECT_NE(some[n].water, others[n].water);
+        for (auto const& other : others) EXPECT_NE(some[n].id, other.id);
+    }
+}
+
 TEST(Nozzle, lets_parcels_go_evenly_within_a_step)
 {
     auto nozzle = laboratory();
