@@ -61,6 +61,50 @@ TEST(FixedBed, of_equal_cells_has_the_pressure_drop_of_ergun)
                      (pressure(3) - pressure(9)) / (6 * edge), 1e-3);
 }
 
+//! Settled granules under air that rises at `speed`: pressure drop over weight per area, and the voidage in the bed.
+struct Bed
+{
+    double share, voidage;
+};
+
+Bed bed_at(double speed, std::string const& drag)
+{
+    auto const simulation = scene::simulation_of(
+        box_text({0.009, 0.009, 0.03}, "\"x\", \"y\"") +
+        "[granules]\ndiameter = \"0.6 mm\"\ndensity = \"1445 kg/m3\"\nmass = \"1 g\"\nstart = \"settled\"\n"
+        "[contact]\nyoungs_modulus = \"1 MPa\"\n[gas]\ndensity = \"1.2 kg/m3\"\nviscosity = \"1.8e-5 Pa.s\"\n"
+        "cells = [5, 5, 16]\nsmoothing = \"2 mm\"\n" +
+        fmt::format("drag = \"{}\"\nvelocity = \"{} m/s\"\n[time]\nduration = \"1 s\"\ngas_step = \"0.5 ms\"\n", drag,
+                    speed));
+    double sum = 0;
+    int count = 0;
+    while (simulation->time() < 0.1) {
+        simulation->step(5e-4);
+        if (simulation->time() < 0.06) continue;
+        auto const now = simulation->readings();
+        sum += now.pressure_drop / now.weight_over_area;
+        ++count;
+    }
+    auto const& grid = simulation->grid();
+    double voidage = 0;
+    for (int k = 2; k < 5; ++k)
+        for (int j = 0; j < 5; ++j)
+            for (int i = 0; i < 5; ++i) voidage += simulation->gas().voidage[grid.at(i, j, k)] / 75;
+    return {sum / count, voidage};
+}
+
+TEST(PackedBed, begins_to_float_at_the_speed_of_its_law_and_packing)
+{
+    for (std::string const drag : {"ergun", "beetstra"}) {
+        for (double const u : {0.10, 0.12, 0.14, 0.16, 0.18, 0.2, 0.25}) {
+            auto b = bed_at(u, drag);
+            fmt::print(
+                "{} {} {} {} umf {}\n", drag, u, b.share, b.voidage,
+                law::drag::minimum_fluidisation_velocity(law::drag::Ergun{}, 0.6e-3, 1445, 1.2, 1.8e-5, b.voidage));
+        }
+    }
+}
+
 struct Box
 {
     double rate;           //!< of the slip's decay, 1/s

@@ -104,6 +104,10 @@ void check_steps(io::CaseFile& file, Case const& data)
 
 void check_nozzles(io::CaseFile& file, Case const& data)
 {
+    bool const repeats = data.periodic[0] || data.periodic[1] || data.periodic[2];
+    if (data.spray.present && repeats)
+        file.mistake("apparatus.periodic", "does not go with a spray: droplets do not pass periodic sides",
+                     {"close the box, or leave out [spray]"});
     for (std::size_t i = 0; i < data.spray.nozzles.size(); ++i) {
         auto const key = fmt::format("nozzle[{}].position", i);
         if (file.wrong(key) || data.chamber.inside(data.spray.nozzles[i].position)) continue;

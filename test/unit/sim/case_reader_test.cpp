@@ -143,6 +143,17 @@ TEST(CaseReader, allows_over_wetting_only_when_asked)
     EXPECT_EQ(mistakes_of(text), "");
 }
 
+TEST(CaseReader, refuses_a_spray_between_periodic_sides)
+{
+    auto text = box + gas + "velocity = \"1 m/s\"\nhumidity = \"8 g/kg\"\n" +
+                "[granules]\ndiameter = \"1 mm\"\ndensity = \"1000 kg/m3\"\nmass = \"10 g\"\n" +
+                "[spray]\nliquid = \"sodium-benzoate-30\"\nrate = \"0.1 kg/h\"\nsolids_fraction = \"30 %\"\n" +
+                "[[nozzle]]\nposition = [\"5 cm\", \"5 cm\", \"50 cm\"]\n";
+    EXPECT_EQ(mistakes_of(text), "");
+    text.replace(text.find("[time]"), 0, "periodic = [\"x\"]\n");
+    EXPECT_NE(mistakes_of(text).find("apparatus.periodic"), std::string::npos) << mistakes_of(text);
+}
+
 TEST(CaseReader, needs_only_gas_and_spray_for_a_balance)
 {
     EXPECT_NO_THROW(read_case(GRANUM_SOURCE_DIR "/examples/balance/1.toml", Purpose::balance));
