@@ -174,6 +174,33 @@ TEST(PeriodicBox, keeps_its_momentum_while_the_slip_decays_at_the_rate_of_its_dr
     verify::relative("P16", "periodic box: decay of the slip, step of 0.25 ms, 1/s", exact, finest.rate, 1e-2);
 }
 
+//! Temperature of a hot sphere in a stream of 6 m/s after `time`; `viscosity` and `conductivity` of the gas.
+double cooled(double time, std::string const& viscosity, std::string const& conductivity)
+{
+    auto const simulation = scene::simulation_of(
+        "gravity = [\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"]\n" + box_text({0.6, 0.6, 0.6}, "\"x\", \"y\"") +
+            granules_text(3.6e-3, 8850) +
+            "heat_capacity = \"55 J/kg/K\"\nfrozen = true\n[gas]\nvelocity = \"6 m/s\"\ntemperature = \"298.15 K\"\n"
+            "density = \"1.1854 kg/m3\"\nheat_transfer = \"ranz-marshall\"\ncells = [3, 3, 3]\nviscosity = \"" +
+            viscosity + " Pa.s\"\nconductivity = \"" + conductivity +
+            " W/m/K\"\n[start]\nbed_temperature = \"373.15 K\"\n[time]\nduration = \"10 s\"\ngas_step = \"1 ms\"\n",
+        granules_csv(std::vector{Vec3{0.3, 0.3, 0.3}}, 1.8e-3));
+    while (simulation->time() < time - 1e-9) simulation->step(1e-3);
+    return simulation->granules().temperature[0];
+}
+
+TEST(HotSphere, in_a_gas_stream_cools_as_the_reference_cases)
+{
+    verify::absolute("P17", "hot sphere, conductivity 0.05186 W/m/K: temperature after 0.1 s, K", 366.8414,
+                     cooled(0.1, "1.8603e-5", "0.05186"), 0.05);
+    scene::Table const table("h-01.csv");  // the same in SI, with the conductivity of air
+    for (std::size_t row : {1u, 2u})
+        verify::absolute(
+            "P17",
+            fmt::format("hot sphere, conductivity 0.026 W/m/K: temperature after {} s, K", table.text(row, "t_s")),
+            table.number(row, "Tp_K"), cooled(table.number(row, "t_s"), "1.85e-5", "0.026"), 0.05);
+}
+
 struct Track
 {
     double velocity = 0, position = 0;  //!< largest shares off

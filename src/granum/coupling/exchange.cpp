@@ -99,7 +99,7 @@ void Exchange::share(particle::Store const& granules, gas::State const& state, d
             for (std::size_t row = 0; row < granules.owned; ++row) {
                 double const t = seen.temperature[row], w = seen.vapour_fraction[row];
                 double const viscosity = settings.viscosity ? *settings.viscosity : air::viscosity(t);
-                double const conductivity = air::conductivity(t);
+                double const conductivity = settings.conductivity ? *settings.conductivity : air::conductivity(t);
                 double const prandtl = viscosity * air::heat_capacity(w) / conductivity;
                 double const schmidt = viscosity / (seen.density[row] * air::diffusivity(t, pressure_));
                 double const phi = seen.solids_fraction[row], re = seen.reynolds[row];

@@ -38,7 +38,7 @@ struct Settings
     //! heavier gas from falling in; 0 leaves the top open to still air. Pressures count from the mean below the filter.
     double outlet_resistance = 30;
     Vec3 gravity{0, 0, -9.81};
-    std::optional<double> density, viscosity;                          //!< constant instead of moist air
+    std::optional<double> density, viscosity, conductivity;            //!< constant instead of moist air
     double ambient_temperature = 293.15, ambient_vapour_fraction = 0;  //!< of gas drawn in through the outlet
     double tolerance = 1e-6;  //!< of the pressure solve, relative to its right side
 };

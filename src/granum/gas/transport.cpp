@@ -97,7 +97,7 @@ void Solver::Inside::carry_vapour_and_heat(State& state, Sources const& sources,
     for (Index c = 0; c < grid.size(); ++c) {
         if (!grid.open(c)) continue;
         density_diffusivity[c] = state.mass[c] / grid.open_volume[c] * diffusivity(state.temperature[c], set.pressure);
-        conducting[c] = state.voidage[c] * conductivity(state.temperature[c]);
+        conducting[c] = state.voidage[c] * (set.conductivity ? *set.conductivity : conductivity(state.temperature[c]));
     }
     auto conduct = [&](Field const& property) {
         for (std::size_t d = 0; d < 3; ++d) {

@@ -43,6 +43,7 @@ constexpr std::array rows{
     Row{Dimension::viscosity, "a viscosity", "Pa.s", "3 mPa s", "mPa.s"},
     Row{Dimension::surface_tension, "a surface tension", "N/m", "63 mN/m", "mN/m"},
     Row{Dimension::heat_capacity, "a heat capacity", "J/kg/K", "1400 J/kg/K", "J/kg/K"},
+    Row{Dimension::conductivity, "a thermal conductivity", "W/m/K", "0.026 W/m/K", "W/m/K"},
     Row{Dimension::molar_mass, "a molar mass", "kg/mol", "144.1 g/mol", "g/mol"},
     Row{Dimension::power, "a power", "W", "100 W", "W"},
     Row{Dimension::energy, "an energy", "J", "1 J", "J"},

@@ -29,6 +29,7 @@ enum class Dimension
     viscosity,
     surface_tension,
     heat_capacity,
+    conductivity,
     molar_mass,
     power,
     energy,

@@ -102,6 +102,7 @@ gas::Settings gas_settings(Case const& data)
     settings.gravity = data.gravity;
     settings.density = data.gas.density;
     settings.viscosity = data.gas.viscosity;
+    settings.conductivity = data.gas.conductivity;
     settings.ambient_temperature = inlet.temperature;
     settings.ambient_vapour_fraction = material::fraction(inlet.humidity);
     return settings;

@@ -78,7 +78,8 @@ struct GasCase
     bool present = false;
     InletCase inlet;
     double pressure = math::standard_pressure;  //!< Pa at the outlet
-    std::optional<double> density, viscosity;   //!< constant values instead of moist air (verification cases)
+    std::optional<double> density, viscosity,
+        conductivity;  //!< constant values instead of moist air (verification cases)
     std::array<int, 3> cells{1, 1, 1};
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";

@@ -95,6 +95,8 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
         file.optional_quantity("gas.density", Dimension::density, "constant, instead of moist air", io::positive);
     gas.viscosity =
         file.optional_quantity("gas.viscosity", Dimension::viscosity, "constant, instead of moist air", io::positive);
+    gas.conductivity = file.optional_quantity("gas.conductivity", Dimension::conductivity,
+                                              "constant, instead of moist air", io::positive);
     gas.closed = file.boolean("gas.closed", false, "no inlet and no outlet");
     bool const constant = gas.density.has_value() || gas.closed;
     gas.inlet.temperature =
