@@ -88,7 +88,9 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     in.refresh({&state.voidage});
     SharedSources const shared = in.share(sources);
     in.predict(state, shared, state.voidage, dt);
-    balance.pressure_iterations = in.project(state, shared, state.voidage, dt);
+    auto const pressure = in.project(state, shared, state.voidage, dt);
+    balance.pressure_iterations = pressure.iterations;
+    balance.pressure_converged = pressure.converged;
     in.carry_vapour_and_heat(state, sources, dt, balance);
     in.derive(state);
     in.refresh({&state.vapour, &state.enthalpy, &state.temperature, &state.vapour_fraction, &state.density});

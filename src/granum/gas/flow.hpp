@@ -73,6 +73,7 @@ struct Balance
 {
     double mass_in = 0, mass_out = 0, vapour_in = 0, vapour_out = 0, enthalpy_in = 0, enthalpy_out = 0;  //!< kg, J
     int pressure_iterations = 0;
+    bool pressure_converged = true;
 };
 
 //! Weights of the lower and upper face of each cell for the cell's mean velocity, by direction: sum to one, boundary

@@ -108,7 +108,7 @@ struct Solver::Inside
     void set_plate_velocity(State& state, Field const& voidage) const;
     void predict(State& state, SharedSources const& sources, Field const& voidage, double dt);
     //! Fluxes of the end of the step, and the mass they leave; returns iterations.
-    int project(State& state, SharedSources const& sources, Field const& voidage, double dt);
+    solve::Outcome project(State& state, SharedSources const& sources, Field const& voidage, double dt);
     //! Solves for x (first guess in, solution out, ghosts filled) and updates content.
     void carry(Carried& what, Field& x, double dt);
     void carry_vapour_and_heat(State& state, Sources const& sources, double dt, Balance& balance);

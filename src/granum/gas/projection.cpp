@@ -9,7 +9,7 @@
 
 namespace granum::gas
 {
-int Solver::Inside::project(State& state, SharedSources const& sources, Field const& voidage, double dt)
+solve::Outcome Solver::Inside::project(State& state, SharedSources const& sources, Field const& voidage, double dt)
 {
     auto& u = state.velocity;
     auto& flux = state.mass_flux;
@@ -81,6 +81,6 @@ int Solver::Inside::project(State& state, SharedSources const& sources, Field co
         state.mass[c] += dt * (sources.mass[c] - outflow(c));
     });
     refresh({&state.pressure, &state.mass});
-    return outcome.iterations;
+    return outcome;
 }
 }

@@ -113,6 +113,11 @@ std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::s
             fmt::format("overlaps above 10 % of a radius on {} granule steps (largest {:.1f} %): granules are "
                         "soft for the speeds met; a larger contact.youngs_modulus hardens them",
                         steps, 100 * overlap));
+    if (simulation.unconverged_steps() > 0)
+        warnings.push_back(
+            fmt::format("the pressure missed its tolerance on {} of {} gas steps: the ledgers hold, but the gas "
+                        "velocity of these steps is in doubt; a smaller time.gas_step helps",
+                        simulation.unconverged_steps(), simulation.steps()));
     return warnings;
 }
 }

@@ -139,6 +139,7 @@ void Simulation::gas_step(double dt)
     {
         auto const scope = stopwatch_.time(base::Stage::gas);
         last_ = solver_->advance(gas_, sources_, voidage, dt);
+        unconverged_ += !last_.pressure_converged;
         in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
         in_[2] += last_.enthalpy_in, out_[2] += last_.enthalpy_out;
     }

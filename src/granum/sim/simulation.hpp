@@ -78,6 +78,7 @@ class Simulation
     Readings readings() const;   //!< Collective.
     base::Stopwatch& stopwatch() { return stopwatch_; }
     double local_drying_potential(double temperature, double vapour_fraction) const;
+    long unconverged_steps() const { return unconverged_; }  //!< gas steps whose pressure missed its tolerance
     long clamped_cells() const { return exchange_ ? exchange_->clamped_cells() : 0; }
 
     //! The events since the last call, of all ranks, on rank 0 (empty elsewhere). Collective.
@@ -126,6 +127,6 @@ class Simulation
     gas::Balance last_;  //!< boundary flows of the last gas step
     base::Stopwatch stopwatch_;
     double time_ = 0, granule_dt_ = 0;
-    long steps_ = 0, granule_steps_ = 0;
+    long steps_ = 0, granule_steps_ = 0, unconverged_ = 0;
 };
 }
