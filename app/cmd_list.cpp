@@ -1,4 +1,5 @@
 // granum list [FAMILY]: the laws that a case may name, from their cards.
+#include "unknown_name.hpp"
 #include "verbs.hpp"
 
 #include "granum/base/error.hpp"
@@ -29,13 +30,7 @@ int list(std::string const& wanted)
         if (wanted == family.name) return 0;
     }
     if (wanted.empty()) return 0;
-    base::Mistake mistake{"", 0, fmt::format("\"{}\"", wanted), "is not a family of laws", {}};
-    std::string known;
-    for (auto const& name : names) known += (known.empty() ? "known: " : ", ") + name;
-    mistake.hints.push_back(known);
-    if (auto const near = base::nearest_name(wanted, names); !near.empty())
-        mistake.hints.push_back(fmt::format("did you mean \"{}\"?", near));
-    throw base::CaseError({mistake});
+    throw unknown_name(wanted, "is not a family of laws", names);
 }
 }
 

@@ -1,4 +1,5 @@
 // granum new TEMPLATE: a commented case to start from.
+#include "unknown_name.hpp"
 #include "verbs.hpp"
 
 #include "granum/base/error.hpp"
@@ -34,13 +35,7 @@ int write_new(std::string const& wanted, std::string const& path)
         fmt::print("wrote {}; look at it, then: granum check {}\n", path, path);
         return 0;
     }
-    base::Mistake mistake{"", 0, fmt::format("\"{}\"", wanted), "is not a template", {}};
-    std::string known;
-    for (auto const& name : names) known += (known.empty() ? "known: " : ", ") + name;
-    mistake.hints.push_back(known);
-    if (auto const near = base::nearest_name(wanted, names); !near.empty())
-        mistake.hints.push_back(fmt::format("did you mean \"{}\"?", near));
-    throw base::CaseError({mistake});
+    throw unknown_name(wanted, "is not a template", names);
 }
 }
 

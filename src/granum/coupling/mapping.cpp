@@ -65,42 +65,24 @@ void Mapping::locate(particle::Store const& granules)
 void Mapping::finish(std::span<Field* const> amounts) const
 {
     grid::fold(grid_, comm_, amounts);
-    smooth_amounts(amounts);
     grid::refresh(grid_, comm_, amounts);
+    if (passes_ == 0) return;
+    // What diffuses is the amount per open volume; in the sum over cells every exchange cancels.
+    for (Field* amount : amounts)
+        for (Index cell = 0; cell < amount->size(); ++cell)
+            if (grid_.open(cell)) (*amount)[cell] /= grid_.open_volume[cell];
+    smooth(amounts);
+    for (Field* amount : amounts)
+        for (Index cell = 0; cell < amount->size(); ++cell) (*amount)[cell] *= grid_.open_volume[cell];
 }
 
 void Mapping::prepare(std::span<Field* const> fields) const
 {
     grid::refresh(grid_, comm_, fields);
-    smooth_values(fields);
+    smooth(fields);
 }
 
-void Mapping::smooth_amounts(std::span<Field* const> amounts) const
-{
-    auto const strides = grid_.strides();
-    for (int pass = 0; pass < passes_; ++pass) {
-        grid::refresh(grid_, comm_, amounts);
-        for (Field* amount : amounts) {
-            Field const& old = *amount;
-            work_ = old;
-            grid::for_each_cell(grid_, [&](int, int, int, Index cell) {
-                if (!grid_.open(cell)) return;
-                double gain = 0;
-                for (std::size_t d = 0; d < 3; ++d)
-                    for (Index face : {cell, cell + static_cast<Index>(strides[d])}) {
-                        double const g = conductance_[d][face];
-                        if (g == 0) continue;
-                        Index const other = face == cell ? cell - static_cast<Index>(strides[d]) : face;
-                        gain += g * (old[other] / grid_.open_volume[other] - old[cell] / grid_.open_volume[cell]);
-                    }
-                work_[cell] += gain;
-            });
-            amount->swap(work_);
-        }
-    }
-}
-
-void Mapping::smooth_values(std::span<Field* const> fields) const
+void Mapping::smooth(std::span<Field* const> fields) const
 {
     auto const strides = grid_.strides();
     for (int pass = 0; pass < passes_; ++pass) {

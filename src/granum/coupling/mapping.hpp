@@ -62,8 +62,8 @@ class Mapping
     void prepare(std::span<Field* const> fields) const;
 
   private:
-    void smooth_amounts(std::span<Field* const> amounts) const;
-    void smooth_values(std::span<Field* const> fields) const;
+    //! Diffuses values per volume; ghosts are filled before and after.
+    void smooth(std::span<Field* const> fields) const;
 
     Grid const& grid_;
     par::Communicator const& comm_;
