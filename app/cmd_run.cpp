@@ -92,6 +92,14 @@ int run_here(sim::ResolvedCase const& resolved, sim::RunOptions const& options)
     return started_by_launcher() ? 0 : status;
 }
 
+//! False for a run that was cut off at once: its last summary is of a run still going.
+bool ended(std::string const& folder)
+{
+    std::ifstream summary(folder + "/summary.json");
+    std::string const text(std::istreambuf_iterator<char>(summary), {});
+    return !text.empty() && text.find("\"ended\": \"running\"") == std::string::npos;
+}
+
 //! The report belongs to every run that left results, also to one that failed or was stopped.
 void report(Wish const& wish, std::string const& folder)
 {
@@ -124,8 +132,7 @@ int run(Wish const& wish)
         std::fflush(nullptr);
         status = launch_ranks(ranks, words);
     }
-    bool const results = fs::exists(folder + "/summary.json");  // not after the second Ctrl-C
-    if (status == static_cast<int>(base::Exit::interrupted) && !results) return status;
+    if (status == static_cast<int>(base::Exit::interrupted) && !ended(folder)) return status;
     try {
         report(wish, folder);
     } catch (std::exception const& error) {

@@ -26,7 +26,7 @@ std::vector<StepBound> step_bounds(Settings const& settings, double radius, doub
         double const overlap =
             std::pow(15 * mass_star * speed * speed / (16 * pair.youngs_modulus * std::sqrt(radius_star)), 0.4);
         double const duration = 2.943275 * overlap / speed;
-        auto const with = granule ? std::string("another granule") : fmt::format("material {}", partner);
+        auto const with = granule ? std::string("another granule") : std::string("the wall");
         out.push_back({duration / 20,
                        fmt::format("1/20 of the contact time {:.3g} s with {} at {:.3g} m/s", duration, with, speed)});
         if (pair.rolling_friction > 0 && std::holds_alternative<law::contact::Epsd>(laws.rolling)) {

@@ -118,6 +118,8 @@ std::string plain(std::string_view unit)
     if (word.empty()) throw QuantityError(fmt::format("has the unit \"{}\", which cannot be read", unit), "");
     std::vector<std::string> const known(symbols.begin(), symbols.end());
     std::string near = base::nearest_name(word, known);
+    if (word == "C" || word == "\u00b0C" || word == "\u2103") near = "degC";  // as people write them
+    if (word == "F" || word == "\u00b0F") near = "degF";
     for (auto const& symbol : known)  // case is the commonest slip: "KG", "Mm"
         if (symbol.size() == word.size() && std::equal(word.begin(), word.end(), symbol.begin(), [](char a, char b) {
                 return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));

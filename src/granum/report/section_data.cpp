@@ -241,7 +241,7 @@ std::string porosity_section(RunFolder const& run)
     add_summary(of_granules);
     out += figure(granules.usable() ? svg(of_granules) : "",
                   "The same, averaged over the layer of each granule; granules that visit the spray often average out, "
-                  "so this is narrower.");
+                  "so this narrows as the run goes on.");
     out += "</div><table class=\"narrow\"><tbody>";
     out += row("mean porosity of the layer", quantity(mean, "", 4)) +
            row("10 % of the layer is below", quantity(p10, "", 4)) +

@@ -66,7 +66,8 @@ std::string performance_section(RunFolder const& run)
     out += row("wall time", wall ? duration(*wall) : not_available) + row("simulated time", quantity(simulated, "s"));
     out += row("wall time per simulated second",
                wall && simulated && *simulated > 0 ? duration(*wall / *simulated) : not_available);
-    out += row("steps of the granules", run.value("run.steps") ? whole(*run.value("run.steps")) : not_available) +
+    out += row("coupling steps of gas and granules",
+               run.value("run.steps") ? whole(*run.value("run.steps")) : not_available) +
            row("ranks", run.value("run.ranks") ? whole(*run.value("run.ranks")) : not_available);
     return section("performance", "Computing time", out + "</tbody></table>");
 }

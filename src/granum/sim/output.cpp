@@ -32,20 +32,17 @@ struct GranuleRow
 {
     std::uint64_t id;
     Vec3 position, velocity;
-    double radius, temperature, moisture, diameter, count, layer_mass, porosity;
+    double radius, temperature, moisture, diameter, count, layer_mass;
 };
 
 std::vector<GranuleRow> granule_rows(Simulation& simulation)
 {
     auto const& g = simulation.granules();
-    double const solids_density = simulation.data().spray.solids_density;
     std::vector<GranuleRow> rows;
     for (std::size_t r = 0; r < g.owned; ++r) {
         double const dry = g.core_mass[r] + g.layer_mass[r] + g.solute[r];
-        double const porosity = g.layer_volume[r] > 0 ? 1 - g.layer_mass[r] / (solids_density * g.layer_volume[r])
-                                                      : std::numeric_limits<double>::quiet_NaN();
         rows.push_back({g.id[r], g.position[r], g.velocity[r], g.radius[r], g.temperature[r], g.water[r] / dry,
-                        g.diameter[r], g.count[r], g.layer_mass[r], porosity});
+                        g.diameter[r], g.count[r], g.layer_mass[r]});
     }
     rows = gathered(simulation.comm(), rows);
     std::sort(rows.begin(), rows.end(), [](auto const& a, auto const& b) { return a.id < b.id; });
@@ -262,7 +259,8 @@ void Output::picture()
         view.moisture.push_back(row.moisture);
         view.diameter.push_back(row.diameter);
         view.count.push_back(row.count);
-        view.porosity.push_back(row.porosity);
+        auto const& layer = layers_[row.id];
+        view.porosity.push_back(layer.solids > 0 ? layer.prediction().mean : std::numeric_limits<double>::quiet_NaN());
         view.layer_mass.push_back(row.layer_mass);
     }
     places.clear();

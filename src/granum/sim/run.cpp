@@ -149,6 +149,23 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
     auto const& time = data.time;
     double next_sample = 0, next_picture = 0, sampled = -1, pictured = -1;
     bool stopped = false;
+    // The summary is there from the first picture on, so that a run that is killed, or still going, can be reported.
+    auto const save_summary = [&](std::string const& ended) {
+        Performance performance;
+        performance.wall = seconds_since(start);
+        for (std::size_t s = 0; s < performance.seconds.size(); ++s) {
+            auto const stage = static_cast<base::Stage>(s);
+            performance.seconds[s] =
+                simulation.stopwatch().seconds(stage) + simulation.engine().stopwatch().seconds(stage);
+        }
+        comm.sum(performance.seconds);
+        performance.granule_steps = simulation.granule_steps();
+        auto warnings = run_warnings(simulation, resolved.warnings);
+        if (root)
+            write_text(options.folder + "/summary.json",
+                       summary(simulation, output, performance, warnings, ended) + "\n");
+        return warnings;
+    };
     auto const look = [&](bool last) {
         auto const scope = simulation.stopwatch().time(base::Stage::output);
         double const now = simulation.time();
@@ -161,30 +178,11 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         if (now >= next_picture * (1 - 1e-12) || (last && pictured < now)) {
             output.events();
             output.picture();
+            save_summary("running");
             pictured = now;
             next_picture = now + time.output_interval;
         }
     };
-    auto const write_summary = [&](std::string const& ended) {
-        Performance performance;
-        performance.wall = seconds_since(start);
-        for (std::size_t s = 0; s < performance.seconds.size(); ++s) {
-            auto const stage = static_cast<base::Stage>(s);
-            performance.seconds[s] =
-                simulation.stopwatch().seconds(stage) + simulation.engine().stopwatch().seconds(stage);
-        }
-        comm.sum(performance.seconds);
-        performance.granule_steps = simulation.granule_steps();
-        auto const warnings = run_warnings(simulation, resolved.warnings);
-        if (!root) return;
-        for (std::size_t w = resolved.warnings.size(); w < warnings.size(); ++w) log->warn("{}", warnings[w]);
-        auto const text = summary(simulation, output, performance, warnings, ended);
-        write_text(options.folder + "/summary.json", text + "\n");
-        log->info("{}", ended);
-        live.end();
-        if (!options.quiet && !options.json) fmt::print("{}", closing_words(text));
-    };
-
     look(false);
     while (simulation.time() < end * (1 - 1e-12)) {
         stopped = comm.max(stop_requested() ? 1L : 0L) > 0;
@@ -196,12 +194,23 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
             live.end();
             log->error("{}", error.what());
             write_failed_state(options.folder, simulation);
+            if (comm.size() == 1) save_summary("failed");  // with others it would wait for them
             throw;
         }
         look(false);
     }
     look(true);
-    write_summary(stopped ? "stopped" : "done");
+    std::string const ended = stopped ? "stopped" : "done";
+    auto const warnings = save_summary(ended);
+    if (root) {
+        for (std::size_t w = resolved.warnings.size(); w < warnings.size(); ++w) log->warn("{}", warnings[w]);
+        log->info("{}", ended);
+        live.end();
+        if (!options.quiet && !options.json) {
+            std::ifstream text(options.folder + "/summary.json");
+            fmt::print("{}", closing_words(std::string(std::istreambuf_iterator<char>(text), {})));
+        }
+    }
     return stopped ? base::Exit::interrupted : base::Exit::done;
 }
 }
