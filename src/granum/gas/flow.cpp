@@ -144,8 +144,11 @@ std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
                                           : in.viscosity(0.5 * (state.temperature[low] + state.temperature[q]));
             auto const reach = in.viscous_reach(face, d);
             double drawn = -in.shear[d][q] * u[q];
-            for (std::size_t e = 0; e < 3; ++e)
-                drawn += reach[2 * e] * (u[in.before(q, e)] - u[q]) + reach[2 * e + 1] * (u[in.next(q, e)] - u[q]);
+            for (std::size_t e = 0; e < 3; ++e) {
+                drawn += reach[2 * e] * (u[in.before(q, e)] - u[q]);
+                // Above a face of the outlet there is nothing, not even a ghost.
+                if (reach[2 * e + 1] != 0) drawn += reach[2 * e + 1] * (u[in.next(q, e)] - u[q]);
+            }
             slope[d][q] = in.pressure_slope(face, d, state.pressure) - mu * drawn / in.face_volume[d][q];
         }
     }

@@ -105,7 +105,9 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, Field c
     for (std::size_t d = 0; d < 3; ++d) offset[2 * d] = -stride(d), offset[2 * d + 1] = stride(d);
     auto neighbours = [&](Row const& row, double const* at) {
         double sum = 0;
-        for (std::size_t m = 0; m < 6; ++m) sum += row.beside[m] * at[offset[m]];
+        for (std::size_t m = 0; m < 5; ++m) sum += row.beside[m] * at[offset[m]];
+        // A face of the outlet lies in the uppermost layer: there is nothing above it, not even a ghost.
+        if (row.beside[5] != 0) sum += row.beside[5] * at[offset[5]];
         return sum;
     };
     double scale = 0;  // largest speed of all ranks, from the first sweep
