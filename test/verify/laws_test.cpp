@@ -6,6 +6,7 @@
 #include "granum/law/wetting/footprint.hpp"
 #include "granum/spray/flight.hpp"
 #include "scene/case_text.hpp"
+#include "scene/drag_table.hpp"
 #include "table.hpp"
 
 #include <map>
@@ -18,27 +19,13 @@ using math::zero_celsius;
 
 TEST(DragLaws, agree_with_the_table)
 {
-    std::vector<std::string> const names{"wen-yu", "ergun", "di-felice", "rong", "koch-hill", "beetstra", "tang"};
-    double const rows[][9] = {{0.4, 0.1, 29.2194, 31.3108, 30.1028, 30.4117, 37.5492, 37.8460, 38.4077},
-                              {0.4, 10, 49.0263, 37.3264, 33.7229, 34.7564, 42.4202, 41.1945, 48.8470},
-                              {0.4, 100, 128.9393, 92.0139, 90.0628, 92.8229, 86.7025, 89.7894, 83.8241},
-                              {0.4, 500, 332.2691, 335.0694, 329.9467, 336.8725, 283.5125, 264.2308, 154.8281},
-                              {0.5, 1, 14.4363, 17.0556, 13.7935, 15.8215, 20.2289, 20.5387, 21.6396},
-                              {0.5, 100, 57.1037, 55.5556, 44.8299, 46.9091, 42.8925, 50.4134, 44.4431},
-                              {0.6, 10, 11.1608, 11.9599, 9.4929, 9.9750, 12.4625, 13.4643, 14.7928},
-                              {0.6, 100, 29.3530, 36.2654, 25.3523, 26.6400, 24.6247, 30.7416, 26.7831},
-                              {0.7, 10, 6.3583, 7.0862, 5.8627, 6.1765, 7.5474, 8.2794, 9.0087},
-                              {0.7, 100, 16.7223, 24.9433, 15.6573, 16.4955, 16.0189, 19.6882, 17.3706},
-                              {0.8, 1, 2.5967, 2.7561, 2.6761, 3.1718, 4.2450, 4.2490, 4.5020},
-                              {0.8, 100, 10.2713, 17.7951, 10.3136, 10.8607, 11.3929, 12.9478, 11.7469},
-                              {0.9, 10, 2.5408, 2.2291, 2.6722, 2.7789, 3.1160, 3.2181, 3.6163},
-                              {0.9, 100, 6.6822, 13.0316, 7.1366, 7.4216, 8.2914, 8.5537, 8.1006}};
-    for (std::size_t n = 0; n < names.size(); ++n) {
-        auto const law = *drag::All::make(names[n]);
+    for (std::size_t n = 0; n < scene::drag_table_laws.size(); ++n) {
+        std::string const name = scene::drag_table_laws[n];
+        auto const law = *drag::All::make(name);
         double worst = 0;
-        for (auto const& row : rows)
+        for (auto const& row : scene::drag_table)
             worst = std::max(worst, std::abs(drag::force_ratio(law, {1 - row[0], row[1]}) / row[2 + n] - 1));
-        verify::below("P11", "drag " + names[n] + ": largest share off, 14 entries", 1e-4, worst);
+        verify::below("P11", "drag " + name + ": largest share off, 14 entries", 1e-4, worst);
     }
 }
 
