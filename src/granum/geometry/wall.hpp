@@ -1,7 +1,7 @@
 // Walls that granules touch: planes, cylinders and cones about the z axis.
 #pragma once
 
-#include "granum/math/vec3.hpp"
+#include "granum/geometry/shape.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -11,12 +11,6 @@
 namespace granum::geometry
 {
 using math::Vec3;
-
-//! Infinite plane; granules live on the side the normal points to.
-struct Plane
-{
-    Vec3 point, normal;  //!< m, unit
-};
 
 //! Inside of a body of revolution between two heights: a cylinder (equal radii) or a cone.
 struct ConeWall
