@@ -142,12 +142,17 @@ void Engine::Inside::compute_forces(particle::Store& granules, double dt)
 void Engine::Inside::kick(particle::Store& granules, double half)
 {
     for (std::size_t row = 0; row < granules.owned; ++row) {
-        double const mass = granules.mass[row], radius = granules.radius[row], rate = granules.drag_rate[row];
-        Vec3 const& gas = granules.gas_velocity[row];
+        double const mass = granules.mass[row], radius = granules.radius[row];
         auto& velocity = granules.velocity[row];
-        Vec3 const given = granules.force[row] + granules.gas_force[row];
-        velocity = (velocity + half * (given * (1 / mass) + rate * gas)) * (1 / (1 + half * rate));
-        granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
+        if (granules.groups.gas) {
+            double const rate = granules.drag_rate[row];
+            Vec3 const& gas = granules.gas_velocity[row];
+            Vec3 const given = granules.force[row] + granules.gas_force[row];
+            velocity = (velocity + half * (given * (1 / mass) + rate * gas)) * (1 / (1 + half * rate));
+            granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
+        } else {
+            velocity += (half / mass) * granules.force[row];
+        }
         granules.spin[row] += (half / (0.4 * mass * radius * radius)) * granules.torque[row];
     }
 }
@@ -203,7 +208,7 @@ void Engine::step(particle::Store& granules, double dt)
     auto& in = *inside_;
     ++in.steps;
     if (in.settings.frozen) {
-        in.hold_frozen(granules, dt);
+        if (granules.groups.gas) in.hold_frozen(granules, dt);
         return;
     }
     long mine = 0;

@@ -169,7 +169,7 @@ void Halo::fill(particle::Store& granules, double reach)
         count = 0;
         if (to < 0 && from < 0) continue;
         auto const received = comm_.exchange(bytes, to, from);
-        count = received.size() / particle::packed_size(Columns::halo);
+        count = received.size() / particle::packed_size(granules, Columns::halo);
         granules.resize(first + count);
         std::span<std::byte const> rest(received);
         for (std::size_t k = 0; k < count; ++k) {

@@ -23,11 +23,10 @@ void pack_row(Store const& granules, std::size_t row, Columns which, std::vector
     });
 }
 
-std::size_t packed_size(Columns which)
+std::size_t packed_size(Store const& granules, Columns which)
 {
-    static Store const empty;
     std::size_t size = 0;
-    visit(empty, which, [&](auto const& column) { size += sizeof(column.values[0]); });
+    visit(granules, which, [&](auto const& column) { size += sizeof(column.values[0]); });
     return size;
 }
 

@@ -17,8 +17,8 @@ enum class Columns
 //! Appends the bytes of one row to `bytes`.
 void pack_row(Store const& granules, std::size_t row, Columns which, std::vector<std::byte>& bytes);
 
-//! Bytes of one packed row.
-std::size_t packed_size(Columns which);
+//! Bytes of one packed row of a store with the same groups of columns.
+std::size_t packed_size(Store const& granules, Columns which);
 
 //! Overwrites a row with what pack_row wrote; returns the bytes behind it.
 std::span<std::byte const> unpack_row(Store& granules, std::size_t row, Columns which,

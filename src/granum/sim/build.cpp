@@ -89,6 +89,12 @@ dem::Settings granule_settings(Case const& data)
     return settings;
 }
 
+particle::Groups column_groups(Case const& data)
+{
+    bool const gas = data.gas.present;
+    return {.parcel = gas || data.granules.parcel_ratio > 1, .gas = gas, .process = gas};
+}
+
 gas::Settings gas_settings(Case const& data)
 {
     gas::Settings settings;

@@ -16,6 +16,9 @@ namespace granum::sim
 //! Contact laws, walls and gravity. Material 0 is the granule, 1 the wall.
 dem::Settings granule_settings(Case const& data);
 
+//! The columns that granules of this case need besides those of motion and contacts.
+particle::Groups column_groups(Case const& data);
+
 gas::Settings gas_settings(Case const& data);
 coupling::Laws exchange_laws(Case const& data);
 

@@ -31,8 +31,9 @@ std::vector<Row> gathered(par::Communicator const& comm, std::vector<Row> const&
 struct GranuleRow
 {
     std::uint64_t id;
-    Vec3 position, velocity;
-    double radius, temperature, moisture, diameter, count, layer_mass;
+    Vec3 position, velocity, spin;
+    double radius = 0, diameter = 0, count = 1, material = 0;
+    double temperature = 0, moisture = 0, layer_mass = 0;  // where granules have these columns
 };
 
 std::vector<GranuleRow> granule_rows(Simulation& simulation)
@@ -40,9 +41,20 @@ std::vector<GranuleRow> granule_rows(Simulation& simulation)
     auto const& g = simulation.granules();
     std::vector<GranuleRow> rows;
     for (std::size_t r = 0; r < g.owned; ++r) {
-        double const dry = g.core_mass[r] + g.layer_mass[r] + g.solute[r];
-        rows.push_back({g.id[r], g.position[r], g.velocity[r], g.radius[r], g.temperature[r], g.water[r] / dry,
-                        g.diameter[r], g.count[r], g.layer_mass[r]});
+        GranuleRow row{.id = g.id[r],
+                       .position = g.position[r],
+                       .velocity = g.velocity[r],
+                       .spin = g.spin[r],
+                       .radius = g.radius[r],
+                       .diameter = g.real_diameter(r),
+                       .count = g.real_count(r),
+                       .material = static_cast<double>(g.material[r])};
+        if (g.groups.process) {
+            row.temperature = g.temperature[r];
+            row.moisture = g.water[r] / (g.core_mass[r] + g.layer_mass[r] + g.solute[r]);
+            row.layer_mass = g.layer_mass[r];
+        }
+        rows.push_back(row);
     }
     rows = gathered(simulation.comm(), rows);
     std::sort(rows.begin(), rows.end(), [](auto const& a, auto const& b) { return a.id < b.id; });
@@ -132,7 +144,7 @@ Output::Output(std::string folder, Simulation& simulation)
       granules_(folder_ + "/granules.pvd"),
       droplets_(folder_ + "/droplets.pvd"),
       gas_(folder_ + "/gas.pvd"),
-      layers_(static_cast<std::size_t>(simulation.data().granules.parcels)),
+      layers_(simulation.data().spray.present ? static_cast<std::size_t>(simulation.data().granules.parcels) : 0),
       model_(porosity_model(simulation.data()))
 {
     if (!root_) return;
@@ -235,16 +247,22 @@ void Output::picture()
     };
     std::vector<Vec3> places;
     for (auto const& row : granules) places.push_back(row.position);
-    io::write_points(
-        folder_ + "/" + name("granules", "vtp"), places,
-        {column(
-             "id", granules, [](auto const& r) { return static_cast<double>(r.id); }, io::Precision::twice),
-         column("radius [m]", granules, [](auto const& r) { return r.radius; }),
-         column("velocity [m/s]", granules, [](auto const& r) { return r.velocity; }),
-         column("temperature [K]", granules, [](auto const& r) { return r.temperature; }),
-         column("moisture [kg/kg]", granules, [](auto const& r) { return r.moisture; }),
-         column("diameter [m]", granules, [](auto const& r) { return r.diameter; }),
-         column("layer mass [kg]", granules, [](auto const& r) { return r.layer_mass; })});
+    bool const process = simulation_.granules().groups.process;
+    std::vector<io::NamedArray> arrays{
+        column(
+            "id", granules, [](auto const& r) { return static_cast<double>(r.id); }, io::Precision::twice),
+        column("radius [m]", granules, [](auto const& r) { return r.radius; }),
+        column("velocity [m/s]", granules, [](auto const& r) { return r.velocity; }),
+        column("diameter [m]", granules, [](auto const& r) { return r.diameter; })};
+    if (process) {
+        arrays.push_back(column("temperature [K]", granules, [](auto const& r) { return r.temperature; }));
+        arrays.push_back(column("moisture [kg/kg]", granules, [](auto const& r) { return r.moisture; }));
+        arrays.push_back(column("layer mass [kg]", granules, [](auto const& r) { return r.layer_mass; }));
+    } else {
+        arrays.push_back(column("spin [rad/s]", granules, [](auto const& r) { return r.spin; }));
+        arrays.push_back(column("material", granules, [](auto const& r) { return r.material; }));
+    }
+    io::write_points(folder_ + "/" + name("granules", "vtp"), places, arrays);
     granules_.add(time, name("granules", "vtp"));
     io::Snapshot snapshot;
     snapshot.time = time;
@@ -255,12 +273,13 @@ void Output::picture()
     view.position = places;
     for (auto const& row : granules) {
         view.radius.push_back(row.radius);
-        view.temperature.push_back(row.temperature);
-        view.moisture.push_back(row.moisture);
         view.diameter.push_back(row.diameter);
         view.count.push_back(row.count);
-        auto const& layer = layers_[row.id];
-        view.porosity.push_back(layer.solids > 0 ? layer.prediction().mean : std::numeric_limits<double>::quiet_NaN());
+        if (!process) continue;
+        view.temperature.push_back(row.temperature);
+        view.moisture.push_back(row.moisture);
+        bool const layered = row.id < layers_.size() && layers_[row.id].solids > 0;
+        view.porosity.push_back(layered ? layers_[row.id].prediction().mean : std::numeric_limits<double>::quiet_NaN());
         view.layer_mass.push_back(row.layer_mass);
     }
     places.clear();

@@ -45,21 +45,23 @@ Readings Simulation::readings() const
     double coldest = 1e9, hottest = 0;
     double const c_dry = case_.granules.heat_capacity;
     for (std::size_t row = 0; row < granules_.owned; ++row) {
-        double const solid = granules_.core_mass[row] + granules_.layer_mass[row] + granules_.solute[row];
-        double const c = solid * c_dry + granules_.water[row] * air::heat_capacity_water;
-        double const z = granules_.position[row].z, d = granules_.diameter[row];
-        double const volume = granules_.count[row] * math::pi / 6 * d * d * d;
-        sums[capacity] += c;
-        sums[heat] += c * granules_.temperature[row];
-        sums[water] += granules_.water[row];
-        sums[dry] += solid;
+        double const z = granules_.position[row].z, d = granules_.real_diameter(row);
+        double const volume = granules_.real_count(row) * math::pi / 6 * d * d * d;
+        if (granules_.groups.process) {
+            double const solid = granules_.core_mass[row] + granules_.layer_mass[row] + granules_.solute[row];
+            double const c = solid * c_dry + granules_.water[row] * air::heat_capacity_water;
+            sums[capacity] += c;
+            sums[heat] += c * granules_.temperature[row];
+            sums[water] += granules_.water[row];
+            sums[dry] += solid;
+            coldest = std::min(coldest, granules_.temperature[row]);
+            hottest = std::max(hottest, granules_.temperature[row]);
+        }
         sums[solids_volume] += volume;
         sums[solids_area] += volume * case_.chamber.area(std::clamp(z, 0.0, case_.chamber.height()));
         sums[mass] += granules_.mass[row];
         sums[mass_height] += granules_.mass[row] * z;
         sums[energy] += 0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]);
-        coldest = std::min(coldest, granules_.temperature[row]);
-        hottest = std::max(hottest, granules_.temperature[row]);
     }
     if (has_gas()) {
         sums[out_mass] = last_.mass_out, sums[out_vapour] = last_.vapour_out, sums[out_enthalpy] = last_.enthalpy_out;
@@ -84,13 +86,15 @@ Readings Simulation::readings() const
     }
     comm_.sum(sums);
     Readings r;
-    r.bed_temperature = sums[capacity] > 0 ? sums[heat] / sums[capacity] : 0;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    r.bed_temperature = sums[capacity] > 0 ? sums[heat] / sums[capacity] : unknown;
     r.bed_moisture = sums[dry] > 0 ? sums[water] / sums[dry] : 0;
     r.water_on_granules = sums[water];
     r.kinetic_energy = sums[energy];
     r.coldest = comm_.min(coldest), r.hottest = comm_.max(hottest);
+    if (r.coldest > r.hottest) r.coldest = r.hottest = unknown;
     r.height = sums[mass] > 0 ? 2 * sums[mass_height] / sums[mass] : 0;
-    r.outlet_temperature = r.outlet_humidity = r.eta = std::numeric_limits<double>::quiet_NaN();  // nothing has left
+    r.outlet_temperature = r.outlet_humidity = r.eta = unknown;  // nothing has left
     if (!has_gas()) return r;
     if (sums[out_mass] > 0) {
         double const w = sums[out_vapour] / sums[out_mass];

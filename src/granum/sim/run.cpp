@@ -90,15 +90,15 @@ void write_failed_state(std::string const& folder, Simulation& simulation)
     auto const& g = simulation.granules();
     std::vector<io::NamedArray> arrays{{.name = "id", .values = {}, .precision = io::Precision::twice},
                                        {.name = "radius [m]", .values = {}},
-                                       {.name = "temperature [K]", .values = {}},
                                        {.name = "velocity [m/s]", .values = {}, .components = 3}};
+    if (g.groups.process) arrays.push_back({.name = "temperature [K]", .values = g.temperature.values});
     for (std::size_t row = 0; row < g.owned; ++row) {
         arrays[0].values.push_back(static_cast<double>(g.id[row]));
         arrays[1].values.push_back(g.radius[row]);
-        arrays[2].values.push_back(g.temperature[row]);
         auto const v = g.velocity[row];
-        arrays[3].values.insert(arrays[3].values.end(), {v.x, v.y, v.z});
+        arrays[2].values.insert(arrays[2].values.end(), {v.x, v.y, v.z});
     }
+    if (g.groups.process) arrays[3].values.resize(g.owned);  // without the ghosts
     io::write_points(fmt::format("{}/vtk/failed_rank_{}.vtp", folder, simulation.comm().rank()),
                      std::span(g.position.values).first(g.owned), arrays);
 }

@@ -28,8 +28,10 @@ Simulation::Simulation(Case data, par::Communicator const& comm) : case_(std::mo
     granule_dt_ = granule_step(case_);
 
     place_granules();
-    deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.parcels));
-    engine_->attach(*deposits_);
+    if (case_.spray.present) {
+        deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.parcels));
+        engine_->attach(*deposits_);
+    }
     engine_->prepare(granules_);
     if (case_.granules.start == "settled") settle();
     if (case_.gas.present) {
@@ -253,7 +255,7 @@ void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)
 std::array<double, 3> Simulation::stocks() const
 {
     std::array<double, 3> stock{};
-    for (std::size_t row = 0; row < granules_.owned; ++row) {
+    for (std::size_t row = 0; granules_.groups.process && row < granules_.owned; ++row) {
         stock[0] += granules_.layer_mass[row] + granules_.solute[row];
         stock[1] += granules_.water[row];
         stock[2] += granules_.enthalpy[row];

@@ -53,6 +53,7 @@ void Simulation::place_granules()
         for (auto const& place : places) list.push_back({.position = place, .diameter = batch.diameter});
     }
     batch.parcels = static_cast<long>(list.size());
+    granules_.keep(column_groups(case_));
     for (std::size_t id = 0; id < list.size(); ++id) {
         GranuleCase const& given = list[id];
         if (slabs_.owner(given.position.x) != comm_.rank()) continue;
@@ -64,24 +65,33 @@ void Simulation::place_granules()
         granules_.position[row] = given.position;
         granules_.velocity[row] = given.velocity;
         granules_.spin[row] = given.spin;
-        granules_.count[row] = count;
-        granules_.diameter[row] = granules_.core_diameter[row] = diameter;
-        granules_.core_mass[row] = count * density * math::pi / 6 * diameter * diameter * diameter;
-        granules_.temperature[row] = math::zero_celsius;
-        drying::resize_granule(granules_, row);
+        granules_.radius[row] = 0.5 * diameter * std::cbrt(count);
+        granules_.mass[row] = count * density * math::pi / 6 * diameter * diameter * diameter;
+        if (granules_.groups.parcel) {
+            granules_.count[row] = count;
+            granules_.diameter[row] = diameter;
+        }
+        if (granules_.groups.process) {
+            granules_.core_mass[row] = granules_.mass[row];
+            granules_.core_diameter[row] = diameter;
+            granules_.temperature[row] = math::zero_celsius;
+        }
     }
     granules_.owned = granules_.rows();
 }
 
 void Simulation::settle()
 {
-    // The granules fall under gravity in a still, thick gas (rate 5 1/s) until they rest.
-    for (std::size_t row = 0; row < granules_.rows(); ++row) granules_.drag_rate[row] = 5;
+    // The granules fall under gravity as in a still, thick gas that slows them by this rate, 1/s, until they rest.
+    double const rate = 5, slowed = std::exp(-rate * granule_dt_);
     double const g = math::norm(case_.gravity);
     double const radius = largest_radius(case_);
     int const batch = 100;
     for (int round = 0; round < 400; ++round) {
-        for (int s = 0; s < batch; ++s) engine_->step(granules_, granule_dt_);
+        for (int s = 0; s < batch; ++s) {
+            engine_->step(granules_, granule_dt_);
+            for (std::size_t row = 0; row < granules_.owned; ++row) granules_.velocity[row] *= slowed;
+        }
         double squares = 0;
         for (std::size_t row = 0; row < granules_.owned; ++row) squares += math::norm2(granules_.velocity[row]);
         double const mean = comm_.sum(squares) / static_cast<double>(case_.granules.parcels);
@@ -89,8 +99,6 @@ void Simulation::settle()
         if (stop || (round > 5 && mean < 0.01 * g * radius)) break;
     }
     for (std::size_t row = 0; row < granules_.rows(); ++row) {
-        granules_.drag_rate[row] = 0;
-        granules_.drag_impulse[row] = {};
         granules_.velocity[row] = {};
         granules_.spin[row] = {};
     }

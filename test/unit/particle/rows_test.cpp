@@ -22,8 +22,40 @@ TEST(Store, for_each_column_lists_every_column_once)
     });
     EXPECT_EQ(names.size(), columns);
     // A column that is a member but not listed would leave room unaccounted for.
-    EXPECT_EQ(bytes + sizeof(std::size_t), sizeof(Store));
+    EXPECT_EQ(bytes + sizeof(std::size_t) + alignof(Store), sizeof(Store));
 }
+
+TEST(Store, without_a_group_spends_no_memory_on_it_and_knows_what_a_row_stands_for)
+{
+    Store granules;
+    granules.keep({.parcel = false, .gas = false, .process = false});
+    granules.resize(5);
+    granules.radius[3] = 2e-3;
+    std::size_t present = 0;
+    for_every_column(granules, [&](auto const& column) {
+        bool const core = column.traits.group == Group::core;
+        EXPECT_EQ(column.values.size(), core ? 5u : 0u) << column.traits.name;
+        EXPECT_EQ(column.values.capacity() > 0, core) << column.traits.name;
+        present += core;
+    });
+    EXPECT_EQ(present, 9u);
+    EXPECT_EQ(granules.real_count(3), 1);
+    EXPECT_EQ(granules.real_diameter(3), 4e-3);
+    granules.keep({.parcel = true, .gas = true, .process = false});
+    EXPECT_EQ(granules.drag_rate.values, std::vector<double>(5));
+    EXPECT_TRUE(granules.temperature.values.empty());
+}
+
+#ifdef GRANUM_CHECKS
+TEST(Store, refuses_to_read_a_column_it_does_not_have)
+{
+    Store granules;
+    granules.keep({.process = false});
+    granules.resize(2);
+    EXPECT_THROW(granules.temperature[0] = 300, granum::base::NumericsError);
+    EXPECT_NO_THROW(granules.drag_rate[1] = 3);
+}
+#endif
 
 Store numbered(std::size_t rows)
 {
@@ -58,7 +90,7 @@ TEST(Rows, packed_and_unpacked_are_the_same)
     to.resize(3);
     std::vector<std::byte> bytes;
     for (std::size_t row : {2u, 0u}) pack_row(from, row, Columns::all, bytes);
-    EXPECT_EQ(bytes.size(), 2 * packed_size(Columns::all));
+    EXPECT_EQ(bytes.size(), 2 * packed_size(from, Columns::all));
     auto rest = unpack_row(to, 1, Columns::all, bytes);
     rest = unpack_row(to, 2, Columns::all, rest);
     EXPECT_TRUE(rest.empty());
@@ -78,7 +110,10 @@ TEST(Rows, of_ghosts_leave_columns_without_halo_alone)
     unpack_row(to, 0, Columns::halo, bytes);
     EXPECT_EQ(to.position[0], from.position[0]);
     EXPECT_EQ(to.enthalpy[0], -5);
-    EXPECT_LT(packed_size(Columns::halo), packed_size(Columns::all));
+    EXPECT_LT(packed_size(from, Columns::halo), packed_size(from, Columns::all));
+    Store bare = from;
+    bare.keep({.parcel = false, .gas = false, .process = false});
+    EXPECT_LT(packed_size(bare, Columns::halo), packed_size(from, Columns::halo));
 }
 
 TEST(Rows, reordered_move_as_a_whole_and_drop_what_is_not_named)
