@@ -21,7 +21,7 @@ PairProperties const& Laws::pair(std::uint32_t a, std::uint32_t b) const
     return pairs_.at(std::max(a, b)).at(std::min(a, b));
 }
 
-law::contact::Pair Laws::effective(std::uint32_t a, std::uint32_t b) const
+law::contact::Pair<double> Laws::effective(std::uint32_t a, std::uint32_t b) const
 {
     double compliance = 0, shear_compliance = 0;
     for (std::uint32_t const m : {a, b}) {
@@ -35,6 +35,7 @@ law::contact::Pair Laws::effective(std::uint32_t a, std::uint32_t b) const
     return {.youngs_modulus = compliance > 0 ? 1 / compliance : 0,  // two rigid materials never touch
             .shear_modulus = shear_compliance > 0 ? 1 / shear_compliance : 0,
             .damping = damping,
+            .tangential_damping = damping,
             .sliding_friction = properties.sliding_friction,
             .rolling_friction = properties.rolling_friction};
 }

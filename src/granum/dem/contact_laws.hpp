@@ -47,7 +47,7 @@ struct Laws
     PairProperties const& pair(std::uint32_t a, std::uint32_t b) const;
 
     //! What the laws are given for materials a and b: the harmonic moduli and the damping of the normal law.
-    law::contact::Pair effective(std::uint32_t a, std::uint32_t b) const;
+    law::contact::Pair<double> effective(std::uint32_t a, std::uint32_t b) const;
 
   private:
     std::vector<std::vector<PairProperties>> pairs_;  // pairs_[high][low], a triangle

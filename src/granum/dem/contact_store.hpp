@@ -8,6 +8,7 @@
 #include "granum/law/contact/pair.hpp"
 #include "granum/particle/store.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,11 +20,12 @@ using particle::Id;
 //! What a contact remembers.
 struct History
 {
-    law::contact::Slip slip;  //!< of the partner with the lower id against the other
-    Vec3 rolling;             //!< rolling torque on the partner with the lower id, N m
-    double overlap = 0;       //!< m
-    double normal_force = 0;  //!< N
-    double stored = 0;        //!< energy in the tangential and the rolling spring, J
+    std::array<double, 3> slip{};     //!< what the tangential law keeps, of the partner with the lower id
+    std::array<double, 3> rolling{};  //!< what the rolling law keeps, of the partner with the lower id
+    double stiffness = 0;             //!< of the tangential spring at the step before, N/m
+    double overlap = 0;               //!< m
+    double normal_force = 0;          //!< N
+    double stored = 0;                //!< energy in the tangential and the rolling spring, J
 };
 
 //! A contact as others see it.

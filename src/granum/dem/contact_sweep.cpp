@@ -10,8 +10,10 @@
 
 namespace granum::dem
 {
-using law::contact::Approach;
-using law::contact::Pair;
+using math::triple;
+using math::vec3;
+using Approach = law::contact::Approach<double>;
+using Pair = law::contact::Pair<double>;
 
 namespace
 {
@@ -22,23 +24,31 @@ struct Push
     double dissipated, elastic;
 };
 
+// 1.4 m R^2: the inertia of a sphere about a point of its surface.
+inline double surface_inertia(double mass, double radius)
+{
+    return 1.4 * mass * radius * radius;
+}
+
 // `velocity` and `spin` are those of the first against the second partner, at the contact point and in the middle of
 // the last step; `n` points to the first.
 template <class Normal, class Tangential, class Rolling>
 inline Push push(Normal const& normal_law, Tangential const& tangential_law, Rolling const& rolling_law,
-                 Pair const& pair, Approach const& at, Vec3 const& n, Vec3 const& velocity, Vec3 const& spin, double dt,
+                 Pair const& pair, Approach const& at, Vec3 const& n, Vec3 const& velocity, Vec3 const& spin,
                  History& history)
 {
     auto const normal = normal_law(pair, at);
-    auto const tangential = tangential_law(pair, at, normal, n, velocity - at.speed * n, dt, history.slip);
-    auto const rolling = rolling_law(pair, at, normal, tangential.stiffness, n, spin, dt, history.rolling);
+    double stored = 0;
+    auto const tangential = tangential_law(pair, at, normal, triple(n), triple(velocity - at.speed * n),
+                                           history.slip.data(), stored, history.stiffness);
+    auto const rolling = rolling_law(pair, at, normal, triple(n), triple(spin), history.rolling.data());
     // The speed at the end of the step, where the force is: half a step more of this contact's own acceleration.
-    double const speed = at.speed + 0.5 * dt * normal.force / at.mass;
-    double const stored = tangential.energy + rolling.energy;
-    Push out{.tangential = tangential.force,
+    double const speed = at.speed + 0.5 * at.step * normal.force / at.mass;
+    stored += rolling.energy;
+    Push out{.tangential = vec3(tangential.force),
              .normal = normal.force * n,
-             .rolling = history.rolling,
-             .dissipated = (normal.elastic - normal.force) * speed * dt + tangential.work + rolling.work +
+             .rolling = vec3(rolling.torque),
+             .dissipated = (normal.elastic - normal.force) * speed * at.step + tangential.work + rolling.work +
                            history.stored - stored,
              .elastic = normal.energy + stored};
     history.overlap = at.overlap;
@@ -110,12 +120,15 @@ void ContactSweep::pairs(Normal const& normal_law, Tangential const& tangential_
         Vec3 const n = apart * (1 / distance);
         double const lever_i = radius[i] - lever_shift * overlap, lever_j = radius[j] - lever_shift * overlap;
         Vec3 const relative = v[i] - v[j] - cross(lever_i * w[i] + lever_j * w[j], n);
+        double const inertia_i = surface_inertia(mass[i], radius[i]), inertia_j = surface_inertia(mass[j], radius[j]);
         Approach const at{.overlap = overlap,
                           .radius = radius[i] * radius[j] / sum,
                           .mass = mass[i] * mass[j] / (mass[i] + mass[j]),
-                          .speed = dot(relative, n)};
+                          .inertia = inertia_i * inertia_j / (inertia_i + inertia_j),
+                          .speed = dot(relative, n),
+                          .step = dt};
         auto const& pair = table_[material[i] * materials_ + material[j]];
-        auto const out = push(normal_law, tangential_law, rolling_law, pair, at, n, relative, w[i] - w[j], dt, history);
+        auto const out = push(normal_law, tangential_law, rolling_law, pair, at, n, relative, w[i] - w[j], history);
         Vec3 const total = out.normal + out.tangential, turn = cross(n, out.tangential);
         force[i] += total;
         force[j] -= total;
@@ -176,11 +189,16 @@ void ContactSweep::walls(Normal const& normal_law, Tangential const& tangential_
             Vec3 const& n = touch->normal;
             Vec3 const& spin = granules.spin[row];
             Vec3 const relative = granules.velocity[row] - lever * cross(spin, n);
-            Approach const at{
-                .overlap = overlap, .radius = radius, .mass = granules.mass[row], .speed = dot(relative, n)};
+            double const mass = granules.mass[row];
+            Approach const at{.overlap = overlap,
+                              .radius = radius,
+                              .mass = mass,
+                              .inertia = surface_inertia(mass, radius),
+                              .speed = dot(relative, n),
+                              .step = dt};
             auto const& pair =
                 table_[granules.material[row] * materials_ + walls_[contacts.wall_rows[k].wall].material];
-            auto const out = push(normal_law, tangential_law, rolling_law, pair, at, n, relative, spin, dt, history);
+            auto const out = push(normal_law, tangential_law, rolling_law, pair, at, n, relative, spin, history);
             Vec3 const total = out.normal + out.tangential;
             granules.force[row] += total;
             granules.torque[row] += out.rolling - lever * cross(n, out.tangential);

@@ -48,6 +48,6 @@ class ContactSweep
     std::vector<geometry::Wall> walls_;
     OverlapLimits limits_;
     std::size_t materials_;
-    std::vector<law::contact::Pair> table_;  // [a * materials_ + b]
+    std::vector<law::contact::Pair<double>> table_;  // [a * materials_ + b]
 };
 }

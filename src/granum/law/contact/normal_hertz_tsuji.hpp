@@ -2,43 +2,34 @@
 #pragma once
 
 #include "granum/base/type_list.hpp"
-#include "granum/law/contact/pair.hpp"
+#include "granum/law/contact/dashpot.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace granum::law::contact
 {
-//! What happens at the end of a damped contact, where spring plus dashpot would pull.
-enum class Attraction
-{
-    cut,  //!< the force is never negative; the damping is corrected so that the restitution is the one asked for
-    keep  //!< the pull stays; Tsuji's own damping then gives exactly the restitution asked for
-};
-
-//! F = k overlap - c speed, k = 4/3 E* a, c = 2 g sqrt(S m*), S = 2 E* a, a = sqrt(R* overlap).
+//! F = 4/3 E* a overlap - c speed, c = 2 g sqrt(S m*), S = 2 E* a, a = sqrt(R* overlap); k_t = 8 G* a.
 struct HertzTsuji
 {
     static constexpr base::Card card{
         .name = "hertz-tsuji",
         .title = "Hertz spring with Tsuji damping",
         .source = "Tsuji, Tanaka and Ishida, Powder Technol. 71 (1992) 239 (recalled, unverified)",
-        .valid =
-            "elastic spheres, overlap small against the radius; damping fitted for "
-            "restitution from 0.1 to 1, extrapolated below"};
+        .valid = "elastic spheres, overlap small against the radius; restitution from 0.001 to 1, whatever the speed"};
     Attraction attraction = Attraction::cut;
 
     //! The g that gives `restitution` (clamped to [1e-3, 1]), dimensionless.
-    double damping(double restitution) const;
+    double damping(double restitution) const { return std::sqrt(5.0 / 6.0) * damping_ratio(restitution, attraction); }
 
-    NormalForce operator()(Pair const& pair, Approach const& at) const
+    template <class Real>
+    NormalForce<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at) const
     {
-        double const contact_radius = std::sqrt(at.radius * at.overlap);
-        double const elastic = 4.0 / 3.0 * pair.youngs_modulus * contact_radius * at.overlap;
-        double const viscous = 2 * pair.damping * std::sqrt(2 * pair.youngs_modulus * contact_radius * at.mass);
-        double force = elastic - viscous * at.speed;
-        if (attraction == Attraction::cut) force = std::max(0.0, force);
-        return {force, elastic, 0.4 * elastic * at.overlap, contact_radius};
+        Real const contact_radius = sqrt(at.radius * at.overlap);
+        Real const elastic = Real(4.0 / 3.0) * pair.youngs_modulus * contact_radius * at.overlap;
+        Real const coefficient = Real(2) * pair.damping *
+                                 sqrt(Real(2) * pair.youngs_modulus * at.mass * sqrt(at.radius * damped_overlap(at)));
+        return {spring_and_dashpot(at, elastic, coefficient, 1.25, attraction), elastic,
+                Real(0.4) * elastic * at.overlap, Real(8) * pair.shear_modulus * contact_radius};
     }
 };
 }

@@ -1,68 +1,106 @@
-// What the laws of a contact are given and what they keep: numbers only, no granules.
+// What the laws of a contact are given and what they answer: numbers only, no granules.
+//
+// Laws are templates over Real, a double or a register of doubles that belong to as many contacts (math/real.hpp), so
+// that one source serves the plain loop and the vectorised one. They never branch on a Real.
 #pragma once
 
-#include "granum/math/vec3.hpp"
+#include "granum/math/triple.hpp"
 
 namespace granum::law::contact
 {
-using math::Vec3;
+using math::abs;
+using math::max;
+using math::min;
+using math::mul_add;
+using math::reciprocal;
+using math::reciprocal_sqrt;
+using math::select;
+using math::sqrt;
+using math::Triple;
 
 //! Effective properties of two materials that touch.
+template <class Real = double>
 struct Pair
 {
-    double youngs_modulus = 0;    //!< E*, Pa
-    double shear_modulus = 0;     //!< G*, Pa
-    double damping = 0;           //!< g of c = 2 g sqrt(S m*), chosen by the normal law for the restitution, 1
-    double sliding_friction = 0;  //!< 1
-    double rolling_friction = 0;  //!< 1
+    Real youngs_modulus{};        //!< E*, Pa
+    Real shear_modulus{};         //!< G*, Pa
+    Real damping{};               //!< g of the normal dashpot, chosen by the normal law for the restitution, 1
+    Real tangential_damping{};    //!< g_t of the tangential dashpot c_t = 2 g_t sqrt(k_t m*), 1
+    Real sliding_friction{};      //!< 1
+    Real rolling_friction{};      //!< 1
+    Real rolling_damping{};       //!< eta_r of the rolling dashpot, 1
+    Real stiffness{};             //!< k_n of the linear spring, N/m
+    Real tangential_stiffness{};  //!< k_t that goes with the linear spring, N/m
+    Real dissipation_time{};      //!< A of the viscoelastic law, s
+
+    static constexpr int size = 10;
+
+    //! Calls `what` with a reference to each member, always in this order: a table of pairs is read generically.
+    template <class What>
+    void visit(What&& what)
+    {
+        what(youngs_modulus), what(shear_modulus), what(damping), what(tangential_damping), what(sliding_friction);
+        what(rolling_friction), what(rolling_damping), what(stiffness), what(tangential_stiffness);
+        what(dissipation_time);
+    }
 };
 
-//! Two spheres, or a sphere and a wall (then radius and mass are those of the sphere).
+//! Two spheres, or a sphere and a wall (then radius, mass and inertia are those of the sphere).
+template <class Real>
 struct Approach
 {
-    double overlap;  //!< m, > 0
-    double radius;   //!< R* = R_i R_j / (R_i + R_j), m
-    double mass;     //!< m* = m_i m_j / (m_i + m_j), kg
-    double speed;    //!< relative velocity along the normal, positive when they separate, m/s
+    Real overlap;  //!< m, >= 0
+    Real radius;   //!< R* = R_i R_j / (R_i + R_j), m
+    Real mass;     //!< m* = m_i m_j / (m_i + m_j), kg
+    Real inertia;  //!< I_i I_j / (I_i + I_j) with I = 1.4 m R^2 about the contact point, kg m2
+    Real speed;    //!< relative velocity along the normal in the middle of the last step, positive when they part, m/s
+    Real step;     //!< length of the last step, s; 0: forces only, histories stay
 };
 
 //! Answer of a normal law.
+template <class Real>
 struct NormalForce
 {
-    double force;           //!< N, positive pushes apart
-    double elastic;         //!< its conservative part, N
-    double energy;          //!< stored elastically, J
-    double contact_radius;  //!< sqrt(R* overlap), m
-};
-
-//! What a tangential law keeps from step to step.
-struct Slip
-{
-    Vec3 displacement;     //!< of the first partner against the second, m
-    double stiffness = 0;  //!< at the step before, N/m
+    Real force;                 //!< N, positive pushes apart
+    Real elastic;               //!< its conservative part, N
+    Real energy;                //!< stored elastically, J
+    Real tangential_stiffness;  //!< k_t at this overlap, N/m
 };
 
 //! Answer of a tangential law.
+template <class Real>
 struct TangentialForce
 {
-    Vec3 force;        //!< on the first partner, N
-    double stiffness;  //!< N/m
-    double energy;     //!< stored elastically, J
-    double work;       //!< done on the contact by the motion in this step, J
+    Triple<Real> force;  //!< on the first partner, N
+    Real work;           //!< done on the contact by the motion in this step, J
 };
 
-//! Answer of a rolling law; the torque itself is its history.
+//! Answer of a rolling law.
+template <class Real>
 struct RollingTorque
 {
-    double energy = 0;  //!< stored elastically, J
-    double work = 0;    //!< done on the contact by the motion in this step, J
+    Triple<Real> torque;  //!< on the first partner, N m
+    Real energy;          //!< stored elastically, J
+    Real work;            //!< done on the contact by the motion in this step, J
 };
 
+//! A divisor below every one that means something: keeps lanes without a contact finite.
+inline constexpr double tiny = 1e-300;
+
 //! Turns a tangential history vector into the plane normal to `n` without changing its length.
-inline Vec3 turned_into_plane(Vec3 const& history, Vec3 const& n)
+template <class Real>
+Triple<Real> turned_into_plane(Triple<Real> const& history, Triple<Real> const& n)
 {
-    Vec3 const flat = history - dot(history, n) * n;
-    double const flat2 = norm2(flat);
-    return flat2 > 0 ? std::sqrt(norm2(history) / flat2) * flat : Vec3{};
+    Triple<Real> const flat = mul_add(-dot(history, n), n, history);
+    Real const flat2 = norm2(flat);
+    Real const scale = sqrt(norm2(history) * reciprocal(max(flat2, Real(tiny))));
+    return select(flat2 > Real(tiny), scale, Real(0)) * flat;
+}
+
+//! The factor that brings a vector of squared length `size2` down to `limit` where it is longer, 1 elsewhere.
+template <class Real>
+Real shortening(Real limit, Real size2)
+{
+    return select(size2 > limit * limit, limit * reciprocal_sqrt(max(size2, Real(tiny))), Real(1));
 }
 }

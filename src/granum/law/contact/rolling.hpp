@@ -14,20 +14,23 @@ struct Epsd
         .title = "Elastic-plastic spring without dashpot",
         .source = "Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011) 269 (recalled, unverified)",
         .valid = "time step below 0.2 sqrt(I / k_r); a granule at rest rocks a little"};
+    static constexpr int history = 3;
 
-    //! Moves `torque` (N m, on the first partner) on by the relative spin (rad/s, first against second) times dt.
-    RollingTorque operator()(Pair const& pair, Approach const& at, NormalForce const& normal,
-                             double tangential_stiffness, Vec3 const& n, Vec3 const& relative_spin, double dt,
-                             Vec3& torque) const
+    //! Moves the torque in `spring` (x, y, z; N m, on the first partner) on by the relative spin (rad/s, first against
+    //! second) times the step, and answers with it.
+    template <class Real>
+    RollingTorque<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at, NormalForce<Real> const& normal,
+                                   Triple<Real> const& n, Triple<Real> const& relative_spin, Real* spring) const
     {
-        double const limit = pair.rolling_friction * at.radius * normal.force;
-        double const stiffness = tangential_stiffness * at.radius * at.radius;
-        Vec3 const rolling = relative_spin - dot(relative_spin, n) * n;
-        Vec3 const before = turned_into_plane(torque, n);
-        torque = before - (stiffness * dt) * rolling;
-        double const size2 = norm2(torque);
-        if (size2 > limit * limit) torque *= limit / std::sqrt(size2);
-        return {0.5 * norm2(torque) / stiffness, -0.5 * dt * dot(before + torque, rolling)};
+        Real const limit = pair.rolling_friction * at.radius * max(normal.force, Real(0));
+        Real const stiffness = normal.tangential_stiffness * at.radius * at.radius;
+        Triple<Real> const rolling = mul_add(-dot(relative_spin, n), n, relative_spin);
+        Triple<Real> const before = turned_into_plane(Triple<Real>{spring[0], spring[1], spring[2]}, n);
+        Triple<Real> const trial = mul_add(-stiffness * at.step, rolling, before);
+        Triple<Real> const torque = shortening(limit, norm2(trial)) * trial;
+        spring[0] = torque.x, spring[1] = torque.y, spring[2] = torque.z;
+        return {torque, Real(0.5) * norm2(torque) * reciprocal(max(stiffness, Real(tiny))),
+                Real(-0.5) * at.step * dot(before + torque, rolling)};
     }
 };
 
@@ -35,11 +38,13 @@ struct Epsd
 struct NoRolling
 {
     static constexpr base::Card card{.name = "none", .title = "No rolling resistance", .source = "", .valid = "always"};
+    static constexpr int history = 0;
 
-    RollingTorque operator()(Pair const&, Approach const&, NormalForce const&, double, Vec3 const&, Vec3 const&, double,
-                             Vec3&) const
+    template <class Real>
+    RollingTorque<Real> operator()(Pair<Real> const&, Approach<Real> const&, NormalForce<Real> const&,
+                                   Triple<Real> const&, Triple<Real> const&, Real*) const
     {
-        return {};
+        return {{Real(0), Real(0), Real(0)}, Real(0), Real(0)};
     }
 };
 }

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "granum/base/type_list.hpp"
-#include "granum/law/contact/pair.hpp"
+#include "granum/law/contact/dashpot.hpp"
 
 namespace granum::law::contact
 {
-//! F = -k_t slip - c_t v_t with k_t = 8 G* a and the tangential displacement `slip` over the whole contact.
+//! Share of a step's force that brings the tangential velocity from the middle of the last step to its end: half a step
+//! of 7/2 over m*, what a force at the surface of spheres does to the velocity of their contact point.
+inline constexpr double half_step_of_surface = 1.75;
+
+//! F = -k_t slip - c_t v_t with the tangential displacement `slip` over the whole contact, c_t = 2 g_t sqrt(k_t m*).
 //!
 //! The limit mu F_n holds for the force in total, spring and dashpot; the spring is then reset to carry just that
 //! force. Limiting the spring alone misses the rigid-body answer of sliding impacts by more than ten per cent.
@@ -19,31 +23,40 @@ struct Mindlin
         .valid =
             "small slip; the spring loses energy when the overlap falls, as known for "
             "the total form"};
+    static constexpr int history = 3;
 
-    //! Moves `slip` (m, first partner against second) on by `velocity` * dt and answers with the force on the first.
-    TangentialForce operator()(Pair const& pair, Approach const& at, NormalForce const& normal, Vec3 const& n,
-                               Vec3 const& velocity, double dt, Slip& slip) const
+    //! Moves `slip` (x, y, z; m, first partner against second) on by `velocity` (m/s, in the plane of the contact, in
+    //! the middle of the last step) and answers with the force on the first partner. `stored` (J) becomes what the
+    //! spring holds; `stiffness_before` (N/m) is that of the step before on entry and that of this step after. Both
+    //! serve the energy ledger only: no force depends on them.
+    template <class Real>
+    TangentialForce<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at, NormalForce<Real> const& normal,
+                                     Triple<Real> const& n, Triple<Real> const& velocity, Real* slip, Real& stored,
+                                     Real& stiffness_before) const
     {
-        double const stiffness = 8 * pair.shear_modulus * normal.contact_radius;
-        double const viscous = 2 * pair.damping * std::sqrt(stiffness * at.mass);
-        Vec3 const before = turned_into_plane(slip.displacement, n);
-        Vec3 const spring_before = -slip.stiffness * before;
-        slip = {before + dt * velocity, stiffness};
-        Vec3 const spring = -stiffness * slip.displacement;
-        Vec3 force = spring - viscous * velocity;
-        double const limit = pair.sliding_friction * normal.force;
-        double const size2 = norm2(force);
-        if (size2 <= limit * limit) {
-            // The velocity is that of the middle of the last step; half a step of this contact's own acceleration
-            // (7/2 over m* at the surface of spheres) brings it to the end, where the dashpot acts.
-            Vec3 const now = velocity + (1.75 * dt / at.mass) * force;
-            double const work = dt * (viscous * dot(velocity, now) - 0.5 * dot(spring_before + spring, velocity));
-            return {force, stiffness, 0.5 * stiffness * norm2(slip.displacement), work};
-        }
-        force *= limit / std::sqrt(size2);
-        slip.displacement = force * (-1 / stiffness);
-        return {force, stiffness, 0.5 * stiffness * norm2(slip.displacement),
-                -0.5 * dt * dot(spring_before + force, velocity)};
+        Real const stiffness = normal.tangential_stiffness;
+        Real const later = Real(half_step_of_surface) * at.step * reciprocal(at.mass);
+        Real const viscous = lagged(Real(2) * pair.tangential_damping * sqrt(stiffness * at.mass), later);
+        Triple<Real> const before = turned_into_plane(Triple<Real>{slip[0], slip[1], slip[2]}, n);
+        Triple<Real> const after = mul_add(at.step, velocity, before);
+        Triple<Real> const spring = -stiffness * after;
+        Triple<Real> const trial = mul_add(-viscous, velocity, spring);
+        Real const limit = pair.sliding_friction * max(normal.force, Real(0));
+        Real const size2 = norm2(trial);
+        auto const sticks = size2 <= limit * limit;
+        Triple<Real> const force = shortening(limit, size2) * trial;
+        Real const softness = -reciprocal(max(stiffness, Real(tiny)));
+        slip[0] = select(sticks, after.x, softness * force.x);
+        slip[1] = select(sticks, after.y, softness * force.y);
+        slip[2] = select(sticks, after.z, softness * force.z);
+
+        Real const against_before = -stiffness_before * dot(before, velocity);
+        Real const viscous_work = viscous * mul_add(later, dot(velocity, force), norm2(velocity));
+        Real const sticking = at.step * mul_add(Real(-0.5), against_before + dot(spring, velocity), viscous_work);
+        Real const sliding = Real(-0.5) * at.step * (against_before + dot(force, velocity));
+        stored = Real(0.5) * stiffness * norm2(Triple<Real>{slip[0], slip[1], slip[2]});
+        stiffness_before = stiffness;
+        return {force, select(sticks, sticking, sliding)};
     }
 };
 }
