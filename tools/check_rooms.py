@@ -20,7 +20,7 @@ EXTERNAL = {
     r"nlohmann/": {"io", "report", "sim", "app", "test"},
     r"_?HYPRE|krylov\.h": {"solve"},
     r"mpi\.h": {"par", "solve", "app", "test", "bench"},
-    r"CLI/": {"app"},
+    r"CLI/": {"app", "bench"},
     r"(fmt|spdlog)/": {"*"},
     r"(gtest|gmock|rapidcheck)[/.]": {"test"},
     r"benchmark/": {"bench"},
