@@ -20,7 +20,7 @@ using particle::Id;
 //! What a contact remembers.
 struct History
 {
-    std::array<double, 3> slip{};     //!< what the tangential law keeps, of the partner with the lower id
+    std::array<double, 4> slip{};     //!< what the tangential law keeps, of the partner with the lower id
     std::array<double, 3> rolling{};  //!< what the rolling law keeps, of the partner with the lower id
     double stiffness = 0;             //!< of the tangential spring at the step before, N/m
     double overlap = 0;               //!< m

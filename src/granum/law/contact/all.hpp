@@ -2,12 +2,15 @@
 #pragma once
 
 #include "granum/law/contact/normal_hertz_tsuji.hpp"
+#include "granum/law/contact/normal_linear.hpp"
+#include "granum/law/contact/normal_viscoelastic.hpp"
 #include "granum/law/contact/rolling.hpp"
+#include "granum/law/contact/tangential_incremental.hpp"
 #include "granum/law/contact/tangential_mindlin.hpp"
 
 namespace granum::law::contact
 {
-using NormalLaws = base::TypeList<HertzTsuji>;
-using TangentialLaws = base::TypeList<Mindlin>;
-using RollingLaws = base::TypeList<Epsd, NoRolling>;
+using NormalLaws = base::TypeList<HertzTsuji, HertzViscoelastic, Linear>;
+using TangentialLaws = base::TypeList<Mindlin, MindlinIncremental, MindlinRescaled>;
+using RollingLaws = base::TypeList<Epsd, EpsdDashpot, NoRolling>;
 }

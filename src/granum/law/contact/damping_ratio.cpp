@@ -9,16 +9,16 @@ namespace granum::law::contact
 {
 namespace
 {
-// -ln e of a contact whose pull is cut; grows with zeta.
-double loss(double zeta)
+// Duration, times sqrt(k/m), of a contact whose pull is cut.
+double cut_phase(double zeta)
 {
     if (zeta < 1) {
         double const phi = std::acos(zeta);
-        return 2 * phi * zeta / std::sin(phi);
+        return 2 * phi / std::sin(phi);
     }
     if (zeta == 1) return 2;
     double const u = std::acosh(zeta);
-    return 2 * u * zeta / std::sinh(u);
+    return 2 * u / std::sinh(u);
 }
 }
 
@@ -31,8 +31,14 @@ double damping_ratio(double restitution, Attraction attraction)
     double low = 0, high = 100;
     for (int k = 0; k < 100; ++k) {
         double const middle = 0.5 * (low + high);
-        (loss(middle) < wanted ? low : high) = middle;
+        (middle * cut_phase(middle) < wanted ? low : high) = middle;
     }
     return 0.5 * (low + high);
+}
+
+double contact_phase(double damping_ratio, Attraction attraction)
+{
+    if (attraction == Attraction::keep) return math::pi / std::sqrt(1 - damping_ratio * damping_ratio);
+    return cut_phase(damping_ratio);
 }
 }

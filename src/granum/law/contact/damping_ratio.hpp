@@ -19,4 +19,7 @@ enum class Attraction
 //! lines above are derived anew.) The Hertz contact with c ~ overlap^(1/4) obeys the same equation in
 //! x = overlap^(5/4), so its restitution is independent of the speed and is given by the same zeta.
 double damping_ratio(double restitution, Attraction attraction);
+
+//! Duration of that contact, times sqrt(k/m).
+double contact_phase(double damping_ratio, Attraction attraction);
 }
