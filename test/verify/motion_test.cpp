@@ -1,93 +1,16 @@
-// Rows P1 to P9: impacts after Chung and Ooi (Granular Matter 13 (2011) 643) and single spheres that slide and roll,
-// each stated as a case and moved by the step of `granum run`. The set-ups are theirs; the expected numbers are closed
-// forms (elastic and gross-sliding rows) or an independent integration of one contact.
-#include "scene/case_text.hpp"
-#include "scene/granules.hpp"
+// Rows P1 to P9 and D09: impacts after Chung and Ooi (Granular Matter 13 (2011) 643) and single spheres that slide and
+// roll, each stated as a case and moved by the step of `granum run`. The set-ups are theirs; the expected numbers are
+// closed forms (elastic and gross-sliding rows) or an independent integration of one contact.
+#include "impact.hpp"
+#include "scene/reference.hpp"
 #include "table.hpp"
 
 namespace
 {
 using namespace granum;
-using math::Vec3;
-using scene::Stuff;
+using namespace verify;
 
 constexpr Stuff cast_iron{1e11, 0.25, 7000};
-
-struct Scenario
-{
-    Stuff stuff;
-    dem::PairProperties pair;
-    std::vector<sim::GranuleCase> granules;
-    double radius, step;  //!< m, s
-    Vec3 size, gravity;
-    bool lever_radius = true;
-};
-
-std::unique_ptr<sim::Simulation> simulate(Scenario const& s)
-{
-    std::string text = "gravity = " + scene::vector_text(s.gravity, "m/s2");
-    text += "\n[apparatus]\nshape = \"box\"\nsize = " + scene::vector_text(s.size, "m");
-    text += fmt::format("\n[granules]\ndiameter = \"{} m\"\ndensity = \"{} kg/m3\"\n", 2 * s.radius, s.stuff.density);
-    text += fmt::format(
-        "[contact]\nyoungs_modulus = \"{} Pa\"\npoisson_ratio = {}\nrigid_wall = true\nrestitution = {}\n"
-        "sliding_friction = {}\nrolling_friction = {}\nlever_radius = {}\n",
-        s.stuff.youngs_modulus, s.stuff.poisson_ratio, s.pair.restitution, s.pair.sliding_friction,
-        s.pair.rolling_friction, s.lever_radius);
-    text += fmt::format("[time]\nduration = \"10 s\"\ngranule_step = \"{} s\"\n", s.step);
-    for (auto const& granule : s.granules) text += scene::granule_text(granule);
-    return scene::simulation_of(text);
-}
-
-struct Impact
-{
-    double force = 0, overlap = 0, duration = 0;  //!< largest, largest, of the only contact: N, m, s
-    Vec3 velocity, spin;                          //!< of the first granule, afterwards
-};
-
-Impact collide(sim::Simulation& simulation)
-{
-    Impact seen;
-    for (bool touched = false;;) {
-        simulation.step(simulation.granule_dt());
-        auto const contacts = simulation.engine().contacts().active(simulation.granules());
-        if (contacts.empty() && touched) break;
-        if (contacts.empty()) continue;
-        touched = true;
-        seen.duration += simulation.granule_dt();
-        seen.force = std::max(seen.force, contacts[0].history.normal_force);
-        seen.overlap = std::max(seen.overlap, contacts[0].history.overlap);
-    }
-    auto const& granules = simulation.granules();
-    auto const row = granules.id[0] == 0 ? 0u : 1u;
-    seen.velocity = granules.velocity[row], seen.spin = granules.spin[row];
-    return seen;
-}
-
-double plane_modulus(Stuff const& stuff)
-{
-    return stuff.youngs_modulus / (1 - stuff.poisson_ratio * stuff.poisson_ratio);
-}
-double mass_of(Stuff const& stuff, double radius)
-{
-    return 4.0 / 3 * math::pi * std::pow(radius, 3) * stuff.density;
-}
-
-//! A sphere a hair above the plate that arrives with `velocity`.
-Impact on_plate(Stuff const& stuff, double radius, Vec3 const& velocity, dem::PairProperties const& pair,
-                Vec3 const& spin = {}, bool lever_radius = true)
-{
-    double const contact = scene::hertz_time(plane_modulus(stuff), radius, mass_of(stuff, radius), -velocity.z);
-    double const edge = 20 * radius;
-    return collide(*simulate(
-        {.stuff = stuff,
-         .pair = pair,
-         .granules = {{.position = {edge / 2, edge / 2, radius * (1 + 1e-9)}, .velocity = velocity, .spin = spin}},
-         .radius = radius,
-         .step = contact / 4000,
-         .size = {edge, edge, edge},
-         .gravity = {},
-         .lever_radius = lever_radius}));
-}
 
 TEST(ElasticImpact, of_two_spheres_follows_hertz)
 {
@@ -110,9 +33,9 @@ TEST(ElasticImpact, of_two_spheres_follows_hertz)
              .size = {edge, edge, edge},
              .gravity = {}});
         auto const seen = collide(*simulation);
-        verify::relative("P1", row.name + " on " + row.name + ": largest force, N", row.force, seen.force, 1e-3);
-        verify::relative("P1", row.name + " on " + row.name + ": largest overlap, m", row.overlap, seen.overlap, 1e-3);
-        verify::relative("P1", row.name + " on " + row.name + ": duration, s", row.duration, seen.duration, 1e-3);
+        relative("P1", row.name + " on " + row.name + ": largest force, N", row.force, seen.force, 1e-3);
+        relative("P1", row.name + " on " + row.name + ": largest overlap, m", row.overlap, seen.overlap, 1e-3);
+        relative("P1", row.name + " on " + row.name + ": duration, s", row.duration, seen.duration, 1e-3);
         EXPECT_NEAR(seen.velocity.x, -10, 1e-3);
     }
 }
@@ -128,9 +51,9 @@ TEST(ElasticImpact, on_the_plate_follows_hertz)
     for (auto const& row : {Expected{"aluminium alloy", scene::aluminium_alloy, 49.7172e-6, 11.3699e3, 731.656e-6},
                             Expected{"magnesium alloy", scene::magnesium_alloy, 52.1233e-6, 7.23268e3, 767.066e-6}}) {
         auto const seen = on_plate(row.stuff, 0.1, {0, 0, -0.2}, {.restitution = 1, .sliding_friction = 0});
-        verify::relative("P2", row.name + " on a rigid plane: largest force, N", row.force, seen.force, 1e-3);
-        verify::relative("P2", row.name + " on a rigid plane: largest overlap, m", row.overlap, seen.overlap, 1e-3);
-        verify::relative("P2", row.name + " on a rigid plane: duration, s", row.duration, seen.duration, 1e-3);
+        relative("P2", row.name + " on a rigid plane: largest force, N", row.force, seen.force, 1e-3);
+        relative("P2", row.name + " on a rigid plane: largest overlap, m", row.overlap, seen.overlap, 1e-3);
+        relative("P2", row.name + " on a rigid plane: duration, s", row.duration, seen.duration, 1e-3);
     }
 }
 
@@ -139,8 +62,7 @@ TEST(Restitution, comes_out_as_it_went_in)
     for (auto const& [name, stuff] : {std::pair{"aluminium oxide", scene::aluminium_oxide}, {"cast iron", cast_iron}})
         for (double const e : {0.2, 0.4, 0.6, 0.8, 1.0}) {
             auto const seen = on_plate(stuff, 2.5e-3, {0, 0, -3.9}, {.restitution = e, .sliding_friction = 0});
-            verify::relative("P3", fmt::format("{}: restitution asked for {}", name, e), e, seen.velocity.z / 3.9,
-                             5e-3);
+            relative("P3", fmt::format("{}: restitution asked for {}", name, e), e, seen.velocity.z / 3.9, 5e-3);
         }
 }
 
@@ -156,18 +78,18 @@ double tangential_restitution(Stuff const& stuff, double degrees)
 TEST(ObliqueImpact, that_slides_throughout_keeps_the_share_of_a_rigid_body)
 {
     for (auto const& [degrees, expected] : {std::pair{40.0, 0.7829}, {60.0, 0.8948}}) {
-        verify::absolute("P4", fmt::format("aluminium oxide at {} deg: tangential restitution", degrees), expected,
-                         tangential_restitution(scene::aluminium_oxide, degrees), 1e-3);
-        verify::absolute("P4", fmt::format("aluminium alloy at {} deg: tangential restitution", degrees), expected,
-                         tangential_restitution(scene::aluminium_alloy_oblique, degrees), 1e-3);
+        absolute("P4", fmt::format("aluminium oxide at {} deg: tangential restitution", degrees), expected,
+                 tangential_restitution(scene::aluminium_oxide, degrees), 1e-3);
+        absolute("P4", fmt::format("aluminium alloy at {} deg: tangential restitution", degrees), expected,
+                 tangential_restitution(scene::aluminium_alloy_oblique, degrees), 1e-3);
     }
 }
 
 TEST(ObliqueImpact, that_sticks_for_a_while_follows_the_integrated_contact)
 {
     for (auto const& [degrees, expected] : {std::pair{10.0, 0.6984}, {20.0, 0.6225}})
-        verify::absolute("P5", fmt::format("aluminium oxide at {} deg: tangential restitution", degrees), expected,
-                         tangential_restitution(scene::aluminium_oxide, degrees), 5e-3);
+        absolute("P5", fmt::format("aluminium oxide at {} deg: tangential restitution", degrees), expected,
+                 tangential_restitution(scene::aluminium_oxide, degrees), 5e-3);
 }
 
 TEST(ObliqueImpact, at_constant_normal_speed_gives_the_rebound_curve_for_both_levers)
@@ -182,10 +104,10 @@ TEST(ObliqueImpact, at_constant_normal_speed_gives_the_rebound_curve_for_both_le
             auto const seen = on_plate(scene::steel, radius, {row.tangential, 0, -normal},
                                        {.restitution = 1, .sliding_friction = mu}, {}, lever_radius);
             double const slip = seen.velocity.x - radius * seen.spin.y;
-            verify::absolute("P6",
-                             fmt::format("steel, normalised angle {}, lever {}: rebound",
-                                         row.tangential / (mu * normal), lever_radius ? "R" : "R - overlap/2"),
-                             lever_radius ? row.lever_radius : row.lever_contact, slip / (mu * seen.velocity.z), 5e-3);
+            absolute("P6",
+                     fmt::format("steel, normalised angle {}, lever {}: rebound", row.tangential / (mu * normal),
+                                 lever_radius ? "R" : "R - overlap/2"),
+                     lever_radius ? row.lever_radius : row.lever_contact, slip / (mu * seen.velocity.z), 5e-3);
         }
 }
 
@@ -202,28 +124,10 @@ TEST(SpinningSphere, leaves_the_plate_with_the_speed_of_gross_sliding)
         auto const seen = on_plate(scene::aluminium_alloy_oblique, 0.1, {0, 0, -0.2},
                                    {.restitution = 0.5, .sliding_friction = 0.4}, {0, -row.spin, 0});
         auto const name = fmt::format("aluminium alloy spinning at {} rad/s: ", row.spin);
-        verify::absolute("P7", name + "speed after, m/s", row.speed, seen.velocity.x, row.speed_tolerance);
-        verify::absolute("P7", name + "spin after, rad/s", row.after, -seen.spin.y, row.spin_tolerance);
+        absolute("P7", name + "speed after, m/s", row.speed, seen.velocity.x, row.speed_tolerance);
+        absolute("P7", name + "spin after, rad/s", row.after, -seen.spin.y, row.spin_tolerance);
         EXPECT_NEAR(seen.velocity.x, -0.04 * (row.spin + seen.spin.y), 1e-9) << "angular momentum about the contact";
     }
-}
-
-//! A sphere that rests on the plate with the overlap that carries its weight, and moves along it.
-std::unique_ptr<sim::Simulation> along_the_plate(Stuff const& stuff, double radius, double speed, double spin,
-                                                 dem::PairProperties const& pair, double room, double step)
-{
-    double const g = 9.81;
-    double const overlap =
-        std::pow(0.75 * mass_of(stuff, radius) * g / (plane_modulus(stuff) * std::sqrt(radius)), 2.0 / 3);
-    return simulate({.stuff = stuff,
-                     .pair = pair,
-                     .granules = {{.position = {4 * radius, 4 * radius, radius - overlap},
-                                   .velocity = {speed, 0, 0},
-                                   .spin = {0, spin, 0}}},
-                     .radius = radius,
-                     .step = step,
-                     .size = {8 * radius + room, 8 * radius, 8 * radius},
-                     .gravity = {0, 0, -g}});
 }
 
 TEST(SlidingSphere, rolls_after_two_sevenths_of_the_speed_over_the_friction)
@@ -235,10 +139,28 @@ TEST(SlidingSphere, rolls_after_two_sevenths_of_the_speed_over_the_friction)
         auto const& granules = simulation->granules();
         auto const slip = [&] { return granules.velocity[0].x - radius * granules.spin[0].y; };
         while (slip() > 1e-4 * speed && simulation->time() < 0.1) simulation->step(simulation->granule_dt());
-        verify::relative("P8", fmt::format("friction {}: sliding turns into rolling, s", friction),
-                         2 * speed / (7 * friction * 9.81), simulation->time(), 0.01);
-        verify::relative("P8", fmt::format("friction {}: speed then, m/s", friction), 5 * speed / 7,
-                         granules.velocity[0].x, 0.01);
+        relative("P8", fmt::format("friction {}: sliding turns into rolling, s", friction),
+                 2 * speed / (7 * friction * 9.81), simulation->time(), 0.01);
+        relative("P8", fmt::format("friction {}: speed then, m/s", friction), 5 * speed / 7, granules.velocity[0].x,
+                 0.01);
+    }
+}
+
+TEST(RollingSphere, stops_when_and_where_the_reference_says)
+{
+    scene::Table const table("dem-09.csv");
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        double const radius = 0.01, speed = table.number(row, "v0_m_per_s"), mu = table.number(row, "mu_r");
+        auto const simulation =
+            along_the_plate({1e7, 0.25, 1445}, radius, speed, speed / radius,
+                            {.restitution = 0.3, .sliding_friction = 0.8, .rolling_friction = mu}, 1, 1e-5);
+        auto const& granules = simulation->granules();
+        double const start = granules.position[0].x;
+        while (granules.velocity[0].x > 0 && simulation->time() < 3) simulation->step(simulation->granule_dt());
+        auto const name = fmt::format("rolling friction {}, {} m/s: ", mu, speed);
+        relative("D09", name + "time to the stop, s", table.number(row, "t_stop_s"), simulation->time(), 0.01);
+        relative("D09", name + "distance to the stop, m", table.number(row, "distance_m"),
+                 granules.position[0].x - start, 0.01);
     }
 }
 
@@ -251,8 +173,8 @@ TEST(RollingSphere, stops_after_the_distance_that_the_rolling_friction_sets)
     auto const& granules = simulation->granules();
     double const start = granules.position[0].x;
     while (simulation->time() < 1.5) simulation->step(simulation->granule_dt());  // it stops after 1.4271 s
-    verify::relative("P9", "rolling friction 0.1, 1 m/s: distance to the stop, m", 0.71356,
-                     granules.position[0].x - start, 0.05);
+    relative("P9", "rolling friction 0.1, 1 m/s: distance to the stop, m", 0.71356, granules.position[0].x - start,
+             0.05);
     EXPECT_NEAR(granules.velocity[0].x, 0, 0.02);
 }
 }

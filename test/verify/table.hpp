@@ -20,8 +20,16 @@ using Where = std::source_location;
 
 struct Row
 {
-    std::string id, quantity, reference, ours, difference, tolerance;
+    std::string id, published, quantity, reference, ours, difference, tolerance;
     bool good;
+};
+
+//! The id of a row and, where it is known, how far off published codes are in it.
+struct Case
+{
+    Case(char const* name, std::string others = "") : id(name), published(std::move(others)) {}
+
+    std::string id, published;
 };
 
 class Table : public ::testing::Environment
@@ -51,12 +59,14 @@ class Table : public ::testing::Environment
         out << "# Verification\n\nWritten by `./dev test verify`; do not edit. Each row holds a number of this program "
                "against one that did not\ncome from it: a closed form, an independent small program, a table of "
                "somebody else. Rows that name a motion go through\nthe step that `granum run` takes, from a case as a "
-               "user would write it. P: the project's test matrix; X: reference cases\nof `test/reference/`.\n\n";
-        out << "| id | quantity | reference | ours | difference | tolerance | verdict "
-               "|\n|---|---|---:|---:|---:|---:|---|\n";
+               "user would write it. P: the project's test matrix; D and X: the reference\ncases dem-NN and x-NN of "
+               "`test/reference/`. Published: how far other codes are from the same number, as far as that is "
+               "known.\n\n";
+        out << "| id | quantity | reference | ours | difference | tolerance | published | verdict "
+               "|\n|---|---|---:|---:|---:|---:|---|---|\n";
         for (auto const& row : rows_)
-            out << fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.id, row.quantity, row.reference, row.ours,
-                               row.difference, row.tolerance, row.good ? "holds" : "FAILS");
+            out << fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", row.id, row.quantity, row.reference,
+                               row.ours, row.difference, row.tolerance, row.published, row.good ? "holds" : "FAILS");
     }
 
   private:
@@ -68,42 +78,42 @@ class Table : public ::testing::Environment
 inline ::testing::Environment* const registered = ::testing::AddGlobalTestEnvironment(&Table::only());
 
 //! `ours` within the share `tolerance` of `reference`.
-inline void relative(std::string const& id, std::string const& quantity, double reference, double ours,
-                     double tolerance, Where const& where = Where::current())
+inline void relative(Case const& source, std::string const& quantity, double reference, double ours, double tolerance,
+                     Where const& where = Where::current())
 {
     double const difference = ours / reference - 1;
-    Table::only().add({id, quantity, fmt::format("{:.6g}", reference), fmt::format("{:.6g}", ours),
-                       fmt::format("{:+.2g} %", 100 * difference), fmt::format("{:.2g} %", 100 * tolerance),
-                       std::abs(difference) <= tolerance},
+    Table::only().add({source.id, source.published, quantity, fmt::format("{:.6g}", reference),
+                       fmt::format("{:.6g}", ours), fmt::format("{:+.2g} %", 100 * difference),
+                       fmt::format("{:.2g} %", 100 * tolerance), std::abs(difference) <= tolerance},
                       where);
 }
 
 //! `ours` within `tolerance`, in the quantity's unit, of `reference`.
-inline void absolute(std::string const& id, std::string const& quantity, double reference, double ours,
-                     double tolerance, Where const& where = Where::current())
+inline void absolute(Case const& source, std::string const& quantity, double reference, double ours, double tolerance,
+                     Where const& where = Where::current())
 {
     double const difference = ours - reference;
     Table::only().add(
-        {id, quantity, fmt::format("{:.6g}", reference), fmt::format("{:.6g}", ours),
+        {source.id, source.published, quantity, fmt::format("{:.6g}", reference), fmt::format("{:.6g}", ours),
          fmt::format("{:+.2g}", difference), fmt::format("{:.2g}", tolerance), std::abs(difference) <= tolerance},
         where);
 }
 
 //! `ours` from `low` to `high`.
-inline void between(std::string const& id, std::string const& quantity, double low, double high, double ours,
+inline void between(Case const& source, std::string const& quantity, double low, double high, double ours,
                     Where const& where = Where::current())
 {
-    Table::only().add({id, quantity, fmt::format("{:.6g} to {:.6g}", low, high), fmt::format("{:.6g}", ours), "",
-                       "range", ours >= low && ours <= high},
+    Table::only().add({source.id, source.published, quantity, fmt::format("{:.6g} to {:.6g}", low, high),
+                       fmt::format("{:.6g}", ours), "", "range", ours >= low && ours <= high},
                       where);
 }
 
 //! `ours` not above `limit`; what is asked for is 0.
-inline void below(std::string const& id, std::string const& quantity, double limit, double ours,
+inline void below(Case const& source, std::string const& quantity, double limit, double ours,
                   Where const& where = Where::current())
 {
-    Table::only().add({id, quantity, "0", fmt::format("{:.2g}", ours), fmt::format("{:.2g}", ours),
-                       fmt::format("{:.2g}", limit), std::abs(ours) <= limit},
+    Table::only().add({source.id, source.published, quantity, "0", fmt::format("{:.2g}", ours),
+                       fmt::format("{:.2g}", ours), fmt::format("{:.2g}", limit), std::abs(ours) <= limit},
                       where);
 }
 }
