@@ -21,6 +21,12 @@ add_library(udunits2_interface INTERFACE)
 target_include_directories(udunits2_interface SYSTEM INTERFACE ${UDUNITS2_INCLUDE_DIR})
 target_link_libraries(udunits2_interface INTERFACE ${UDUNITS2_LIBRARY})
 
+find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+find_library(XXHASH_LIBRARY xxhash REQUIRED)
+add_library(xxhash_interface INTERFACE)
+target_include_directories(xxhash_interface SYSTEM INTERFACE ${XXHASH_INCLUDE_DIR})
+target_link_libraries(xxhash_interface INTERFACE ${XXHASH_LIBRARY})
+
 add_library(hdf5_interface INTERFACE)
 target_include_directories(hdf5_interface SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(hdf5_interface INTERFACE ${HDF5_C_LIBRARIES})

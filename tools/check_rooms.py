@@ -15,6 +15,7 @@ EXTERNAL = {
     r"toml(\+\+|\.hpp|plusplus)": {"io", "test"},
     r"udunits2\.h": {"io"},
     r"(hdf5|H5\w*)\.h": {"io", "test"},
+    r"xxhash\.h": {"io"},
     r"zlib\.h": {"io", "report", "test"},
     r"png\.h": {"report", "test"},
     r"nlohmann/": {"io", "report", "sim", "app", "test"},
