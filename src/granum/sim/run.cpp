@@ -3,6 +3,7 @@
 #include "granum/sim/case_reader.hpp"
 #include "granum/sim/output.hpp"
 #include "granum/sim/simulation.hpp"
+#include "granum/sim/state_hash.hpp"
 #include "granum/sim/stop.hpp"
 #include "granum/sim/summary.hpp"
 
@@ -160,6 +161,7 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         }
         comm.sum(performance.seconds);
         performance.granule_steps = simulation.granule_steps();
+        performance.state_hash = state_hash(simulation.granules(), comm);
         auto warnings = run_warnings(simulation, resolved.warnings);
         if (root)
             write_text(options.folder + "/summary.json",

@@ -84,6 +84,7 @@ std::string summary(Simulation const& simulation, Output const& output, Performa
                   {"steps", simulation.steps()},
                   {"ranks", simulation.comm().size()},
                   {"granule_step_s", simulation.granule_dt()}};
+    out["state_hash"] = performance.state_hash;
     double represented = 0;
     for (double c : output.last_view().count) represented += c;
     out["granules"] = {{"parcels", data.granules.parcels},

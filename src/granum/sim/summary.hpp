@@ -13,6 +13,7 @@ struct Performance
     double wall = 0;  //!< s
     std::array<double, static_cast<std::size_t>(base::Stage::count)> seconds{};
     long granule_steps = 0;
+    std::string state_hash;  //!< of the granules now, see sim/state_hash.hpp
 };
 
 //! The summary as JSON text; call on rank 0 after the last `Output` calls with the collective numbers at hand.
