@@ -19,6 +19,7 @@ struct Body
     std::vector<Shape> shapes;
     std::uint32_t material = 0;     //!< index in the table of materials
     std::vector<Motion> motions{};  //!< in the order in which they act (see pose()); at most one servo
+    Vec3 origin{};                  //!< about which torques are reported, m; moves with the body
 };
 
 //! Whether the rotation leaves the shape where it is (a shape of revolution about the same axis).

@@ -82,12 +82,13 @@ void apply(Pose& pose, Servo const& motion, bool, double, ServoState const& serv
 }
 }
 
-ServoState advance(Servo const& servo, ServoState const& state, Vec3 const& force, double time, double dt)
+double servo_speed(Servo const& servo, Vec3 const& force, double stiffness, double time, double dt)
 {
-    if (!acts(servo.when, time)) return {state.travelled, 0};
-    double const measured = -dot(force, servo.direction) / servo.area;
-    double const speed = servo.fastest * std::clamp(1 - measured / servo.pressure, -1.0, 1.0);
-    return {state.travelled + speed * dt, speed};
+    if (!acts(servo.when, time)) return 0;
+    double const wanted = servo.pressure * servo.area, measured = -dot(force, servo.direction);
+    // With the force at the end of the step, measured + stiffness speed dt, in place of that at its start.
+    double const implicit = 1 + servo.fastest * stiffness * dt / wanted;
+    return servo.fastest * std::clamp(1 - measured / wanted, -1.0, 1.0) / implicit;
 }
 
 Vec3 Pose::to_space(Vec3 const& drawn) const

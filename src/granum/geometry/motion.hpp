@@ -45,7 +45,8 @@ struct Vibration
 };
 
 //! Moves along `direction` until the granules press back with `pressure`: at the speed
-//! `fastest` (1 - measured / wanted), limited to +-`fastest`.
+//! `fastest` (1 - measured / wanted), limited to +-`fastest`, and slower still where one step at this speed would
+//! change the pressure by more than what is missing (stiff granules).
 struct Servo
 {
     Vec3 direction{0, 0, -1};  //!< unit, towards the granules
@@ -61,12 +62,13 @@ using Motion = std::variant<Translation, Rotation, Vibration, Servo>;
 struct ServoState
 {
     double travelled = 0;  //!< m along its direction
-    double speed = 0;      //!< m/s
+    double speed = 0;      //!< m/s, held through the step that follows
     bool operator==(ServoState const&) const = default;
 };
 
-//! The servo's next speed from the force of the granules on the wall (N), and its way in a step of dt (s).
-ServoState advance(Servo const& servo, ServoState const& state, Vec3 const& force, double time, double dt);
+//! The speed (m/s) of a servo in the step of `dt` (s) that follows, when the granules press on its wall with `force`
+//! (N) and contacts with a stiffness of `stiffness` (N/m, of the force along the direction) at `time` (s).
+double servo_speed(Servo const& servo, Vec3 const& force, double stiffness, double time, double dt);
 
 //! Where a rigid body is and how it moves. A point X of the body as it was drawn is now at rotation X + shift.
 struct Pose

@@ -95,14 +95,15 @@ TEST(RotationInPlace, leaves_a_drum_where_it_is_and_moves_its_surface)
 
 TEST(Servo, moves_towards_the_granules_until_they_press_as_wanted)
 {
-    Servo const servo{.direction = {0, 0, -1}, .pressure = 1000, .area = 0.01, .fastest = 0.1};
-    ServoState state;
-    state = advance(servo, state, {0, 0, 0}, 0, 1e-3);
-    EXPECT_DOUBLE_EQ(state.speed, 0.1);
-    EXPECT_DOUBLE_EQ(state.travelled, 1e-4);
-    EXPECT_DOUBLE_EQ(advance(servo, state, {3, 4, 10}, 0, 1e-3).speed, 0);  // 10 N on 0.01 m2 up: as wanted
-    EXPECT_DOUBLE_EQ(advance(servo, state, {0, 0, 5}, 0, 1e-3).speed, 0.05);
-    EXPECT_DOUBLE_EQ(advance(servo, state, {0, 0, 1e6}, 0, 1e-3).speed, -0.1);
+    Servo const servo{.direction = {0, 0, -1}, .pressure = 1000, .area = 0.01, .fastest = 0.1, .when = {0, 5}};
+    EXPECT_EQ(servo_speed(servo, {}, 0, 5, 1e-3), 0);
+    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 0}, 0, 0, 1e-3), 0.1);
+    EXPECT_DOUBLE_EQ(servo_speed(servo, {3, 4, 10}, 0, 0, 1e-3), 0);  // 10 N on 0.01 m2 up: as wanted
+    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 5}, 0, 0, 1e-3), 0.05);
+    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 1e6}, 0, 0, 1e-3), -0.1);
+    // 1e5 N/m would give 10 N more in a step at full speed: half the speed brings the missing 5 N.
+    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 0}, 1e5, 0, 1e-3), 0.05);
+    ServoState const state{.travelled = 1e-4, .speed = 0.1};
     std::vector<Motion> const motions{servo};
     expect_near(pose(motions, 0, 0, state).shift, {0, 0, -1e-4});
     expect_near(pose(motions, 0, 0, state).velocity, {0, 0, -0.1});

@@ -1,0 +1,37 @@
+// A sum of numbers without rounding, so that it depends neither on their order nor on how ranks share them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace granum::base
+{
+//! Sum of up to 2^31 numbers below 2^63 in size, exact to the last 2^-128 of each. The whole sum of several ranks is
+//! the sum of their limbs.
+struct ExactSum
+{
+    static constexpr std::size_t size = 6;
+    std::array<std::int64_t, size> limbs{};  //!< in multiples of `worth`
+
+    void add(double x)
+    {
+        for (std::size_t k = size; k-- > 0;) {
+            double const part = std::trunc(x * (1 / worth[k]));
+            limbs[k] += static_cast<std::int64_t>(part);
+            x -= part * worth[k];
+        }
+    }
+
+    double value() const
+    {
+        double sum = 0;
+        for (std::size_t k = size; k-- > 0;) sum += static_cast<double>(limbs[k]) * worth[k];
+        return sum;
+    }
+
+  private:
+    static constexpr std::array<double, size> worth{0x1p-128, 0x1p-96, 0x1p-64, 0x1p-32, 1.0, 0x1p32};
+};
+}
