@@ -55,6 +55,10 @@ void BodySearch::near(Vec3 const& centre, double reach, std::vector<std::uint32_
 std::size_t BodySearch::touches(Vec3 const& centre, double radius, std::span<std::uint32_t const> facets,
                                 Scratch& scratch, std::array<Nearest, most_touches>& out) const
 {
+    if (facets.size() == 1) {
+        out[0] = nearest_of(facets[0], centre);
+        return out[0].distance < radius ? 1 : 0;
+    }
     auto& candidates = scratch.candidates;
     candidates.clear();
     for (std::uint32_t const facet : facets) {

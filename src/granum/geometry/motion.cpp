@@ -82,13 +82,13 @@ void apply(Pose& pose, Servo const& motion, bool, double, ServoState const& serv
 }
 }
 
-double servo_speed(Servo const& servo, Vec3 const& force, double stiffness, double time, double dt)
+double servo_speed(Servo const& servo, double speed, Vec3 const& force, double mass, double time, double dt)
 {
     if (!acts(servo.when, time)) return 0;
-    double const wanted = servo.pressure * servo.area, measured = -dot(force, servo.direction);
-    // With the force at the end of the step, measured + stiffness speed dt, in place of that at its start.
-    double const implicit = 1 + servo.fastest * stiffness * dt / wanted;
-    return servo.fastest * std::clamp(1 - measured / wanted, -1.0, 1.0) / implicit;
+    if (!(mass > 0)) return servo.fastest;
+    double const push = servo.pressure * servo.area, brake = push / servo.fastest;
+    double const next = (mass * speed + dt * (push + dot(force, servo.direction))) / (mass + dt * brake);
+    return std::clamp(next, -servo.fastest, servo.fastest);
 }
 
 Vec3 Pose::to_space(Vec3 const& drawn) const

@@ -44,9 +44,8 @@ struct Vibration
     Period when{};
 };
 
-//! Moves along `direction` until the granules press back with `pressure`: at the speed
-//! `fastest` (1 - measured / wanted), limited to +-`fastest`, and slower still where one step at this speed would
-//! change the pressure by more than what is missing (stiff granules).
+//! Moves along `direction` until the granules press back with `pressure`: a piston pushed with pressure * area and
+//! braked in proportion to its speed, so that it goes at `fastest` where nothing resists.
 struct Servo
 {
     Vec3 direction{0, 0, -1};  //!< unit, towards the granules
@@ -66,9 +65,10 @@ struct ServoState
     bool operator==(ServoState const&) const = default;
 };
 
-//! The speed (m/s) of a servo in the step of `dt` (s) that follows, when the granules press on its wall with `force`
-//! (N) and contacts with a stiffness of `stiffness` (N/m, of the force along the direction) at `time` (s).
-double servo_speed(Servo const& servo, Vec3 const& force, double stiffness, double time, double dt);
+//! The speed (m/s) of a servo in the step of `dt` (s) that follows `time` (s), when granules press on its wall with
+//! `force` (N). `mass` (kg) is the piston's inertia; that of the granules it touches keeps it stable at any step that
+//! is stable for them.
+double servo_speed(Servo const& servo, double speed, Vec3 const& force, double mass, double time, double dt);
 
 //! Where a rigid body is and how it moves. A point X of the body as it was drawn is now at rotation X + shift.
 struct Pose

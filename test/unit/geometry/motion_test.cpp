@@ -96,13 +96,17 @@ TEST(RotationInPlace, leaves_a_drum_where_it_is_and_moves_its_surface)
 TEST(Servo, moves_towards_the_granules_until_they_press_as_wanted)
 {
     Servo const servo{.direction = {0, 0, -1}, .pressure = 1000, .area = 0.01, .fastest = 0.1, .when = {0, 5}};
-    EXPECT_EQ(servo_speed(servo, {}, 0, 5, 1e-3), 0);
-    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 0}, 0, 0, 1e-3), 0.1);
-    EXPECT_DOUBLE_EQ(servo_speed(servo, {3, 4, 10}, 0, 0, 1e-3), 0);  // 10 N on 0.01 m2 up: as wanted
-    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 5}, 0, 0, 1e-3), 0.05);
-    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 1e6}, 0, 0, 1e-3), -0.1);
-    // 1e5 N/m would give 10 N more in a step at full speed: half the speed brings the missing 5 N.
-    EXPECT_DOUBLE_EQ(servo_speed(servo, {0, 0, 0}, 1e5, 0, 1e-3), 0.05);
+    double const mass = 1e-3, dt = 1e-5;
+    EXPECT_EQ(servo_speed(servo, 0.1, {}, mass, 5, dt), 0) << "it stands after its time";
+    EXPECT_EQ(servo_speed(servo, 0, {}, 0, 0, dt), 0.1) << "nothing resists";
+    EXPECT_EQ(servo_speed(servo, 0, {3, 4, 10}, mass, 0, dt), 0) << "10 N on 0.01 m2 up: as wanted";
+    EXPECT_DOUBLE_EQ(servo_speed(servo, 0.1, {}, mass, 0, dt), 0.1) << "it goes on as fast as it can";
+    EXPECT_LT(servo_speed(servo, 0, {0, 0, 11}, mass, 0, dt), 0);
+    EXPECT_DOUBLE_EQ(servo_speed(servo, 0, {0, 0, 1e9}, mass, 0, dt), -0.1);
+    // 5 N more than what resists and a brake of 100 N s/m: at rest at first, it tends to half of its speed.
+    double speed = 0;
+    for (int k = 0; k < 1000; ++k) speed = servo_speed(servo, speed, {0, 0, 5}, mass, 0, dt);
+    EXPECT_NEAR(speed, 0.05, 1e-12);
     ServoState const state{.travelled = 1e-4, .speed = 0.1};
     std::vector<Motion> const motions{servo};
     expect_near(pose(motions, 0, 0, state).shift, {0, 0, -1e-4});
