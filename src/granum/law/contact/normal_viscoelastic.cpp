@@ -20,9 +20,9 @@ double speed_after(double a, Attraction attraction)
     };
     auto const moved = [](State const& s, State const& by, double h) { return State{s.x + h * by.x, s.v + h * by.v}; };
     auto const left = [&](State const& s) { return attraction == Attraction::cut ? s.x + 1.5 * a * s.v : s.x; };
-    constexpr double h = 2e-3;  // the elastic contact lasts 3.218
+    constexpr double h = 1e-2;  // the elastic contact lasts 3.218
     State now{0, 1};
-    for (int k = 0; k < 20'000; ++k) {
+    for (int k = 0; k < 4000; ++k) {
         auto const k1 = rate(now), k2 = rate(moved(now, k1, 0.5 * h)), k3 = rate(moved(now, k2, 0.5 * h)),
                    k4 = rate(moved(now, k3, h));
         State const next{now.x + h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x),
