@@ -42,6 +42,7 @@ constexpr std::array rows{
     Row{Dimension::volume_flow, "a volume flow", "m3/s", "120 m3/h", "m3/h"},
     Row{Dimension::viscosity, "a viscosity", "Pa.s", "3 mPa s", "mPa.s"},
     Row{Dimension::surface_tension, "a surface tension", "N/m", "63 mN/m", "mN/m"},
+    Row{Dimension::stiffness, "a stiffness", "N/m", "1000 N/m", "N/m"},
     Row{Dimension::heat_capacity, "a heat capacity", "J/kg/K", "1400 J/kg/K", "J/kg/K"},
     Row{Dimension::conductivity, "a thermal conductivity", "W/m/K", "0.026 W/m/K", "W/m/K"},
     Row{Dimension::molar_mass, "a molar mass", "kg/mol", "144.1 g/mol", "g/mol"},

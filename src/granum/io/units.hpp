@@ -28,6 +28,7 @@ enum class Dimension
     volume_flow,
     viscosity,
     surface_tension,
+    stiffness,
     heat_capacity,
     conductivity,
     molar_mass,

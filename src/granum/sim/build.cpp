@@ -2,9 +2,11 @@
 
 #include "granum/base/error.hpp"
 #include "granum/material/moist_air.hpp"
+#include "granum/math/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace granum::sim
 {
@@ -52,8 +54,28 @@ double collision_speed(Case const& data)
                                                                     material::fraction(data.gas.inlet.humidity));
         fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
     }
-    for (auto const& granule : data.granules.given) fastest = std::max(fastest, math::norm(granule.velocity));
-    return fastest;
+    return std::max(fastest, fastest_meeting(data));
+}
+
+double smallest_radius(Case const& data)
+{
+    double radius = data.granules.diameter / 2;
+    for (auto const& one : data.granules.given)
+        if (one.diameter > 0) radius = std::min(radius, one.diameter / 2);
+    return radius * (data.granules.given.empty() ? data.granules.parcel_ratio : 1);
+}
+
+//! k_n of `linear`, N/m, for a pair whose effective mass is `share` of a granule's: as given, or so that the contact of
+//! two of the smallest granules lasts contact.contact_time contact with a wall lasts as long.
+double linear_stiffness(Case const& data, ContactPair const& pair, double share)
+{
+    auto const& contact = data.contact;
+    if (!contact.contact_time) return pair.stiffness;
+    auto const attraction = contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
+    double const zeta = law::contact::damping_ratio(pair.restitution, attraction);
+    double const rate = law::contact::contact_phase(zeta, attraction) / *contact.contact_time;
+    double const mass = data.granules.density * 4 / 3 * math::pi * std::pow(smallest_radius(data), 3);
+    return share * mass * rate * rate;
 }
 }
 
@@ -73,13 +95,19 @@ dem::Settings granule_settings(Case const& data)
         },
         laws.normal);
     laws.lever = contact.lever_radius ? dem::Lever::radius : dem::Lever::contact_point;
-    auto const granule = laws.add({contact.granule.youngs_modulus, contact.granule.poisson_ratio, false});
-    auto const wall = laws.add({contact.wall.youngs_modulus, contact.wall.poisson_ratio, contact.rigid_wall});
-    auto const pair = [](ContactPair const& p) {
-        return dem::PairProperties{p.restitution, p.sliding_friction, p.rolling_friction};
+    laws.reference = {smallest_radius(data), data.granules.density, contact.reference_speed};
+    auto const granule = laws.add({contact.granule.youngs_modulus, contact.granule.poisson_ratio});
+    auto const wall = laws.add({contact.wall.youngs_modulus, contact.wall.poisson_ratio, contact.rigid_wall, true});
+    auto const pair = [&](ContactPair const& p, double share) {
+        return dem::PairProperties{.restitution = p.restitution,
+                                   .sliding_friction = p.sliding_friction,
+                                   .rolling_friction = p.rolling_friction,
+                                   .rolling_damping = p.rolling_damping,
+                                   .stiffness = linear_stiffness(data, p, share),
+                                   .tangential_ratio = contact.tangential_ratio};
     };
-    laws.pair(granule, granule, pair(contact.granule_granule));
-    laws.pair(granule, wall, pair(contact.granule_wall));
+    laws.pair(granule, granule, pair(contact.granule_granule, 0.5));
+    laws.pair(granule, wall, pair(contact.granule_wall, 1));
     settings.walls = walls(data);
     settings.lower = data.chamber.lower();
     settings.upper = data.chamber.upper();
@@ -213,20 +241,41 @@ double largest_radius(Case const& data)
     return largest;
 }
 
+double fastest_meeting(Case const& data)
+{
+    double first = 0, second = 0;
+    for (auto const& granule : data.granules.given) {
+        double const speed = math::norm(granule.velocity);
+        second = std::max(second, std::min(first, speed));
+        first = std::max(first, speed);
+    }
+    return first + second;
+}
+
+std::vector<dem::Grains> granule_kinds(Case const& data)
+{
+    std::map<double, double> smallest;  // radius by density
+    auto const add = [&](double radius, double density) {
+        auto const [place, fresh] = smallest.try_emplace(density, radius);
+        if (!fresh) place->second = std::min(place->second, radius);
+    };
+    auto const& granules = data.granules;
+    if (granules.mass > 0 || granules.given.empty())
+        add(0.5 * granules.diameter * granules.parcel_ratio, granules.density);
+    for (auto const& granule : granules.given)
+        add(0.5 * (granule.diameter > 0 ? granule.diameter : granules.diameter),
+            granule.density > 0 ? granule.density : granules.density);
+    std::vector<dem::Grains> out;
+    for (auto const& [density, radius] : smallest) out.push_back({0, radius, density});
+    return out;
+}
+
 double granule_step(Case const& data)
 {
     if (data.time.granule_step) return *data.time.granule_step;
-    auto const settings = granule_settings(data);
-    double const speed = collision_speed(data);
     double least = data.time.duration;
-    auto const consider = [&](double radius, double density) {
-        for (auto const& bound : dem::step_bounds(settings, radius, density, speed))
-            least = std::min(least, bound.seconds);
-    };
-    if (data.granules.mass > 0)
-        consider(0.5 * data.granules.diameter * data.granules.parcel_ratio, data.granules.density);
-    for (auto const& granule : data.granules.given)
-        consider(0.5 * granule.diameter, granule.density > 0 ? granule.density : data.granules.density);
+    for (auto const& bound : dem::step_bounds(granule_settings(data).laws, granule_kinds(data), collision_speed(data)))
+        least = std::min(least, bound.seconds);
     return least;
 }
 

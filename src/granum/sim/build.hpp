@@ -3,6 +3,7 @@
 
 #include "granum/coupling/exchange.hpp"
 #include "granum/dem/engine.hpp"
+#include "granum/dem/step_bounds.hpp"
 #include "granum/drying/drying.hpp"
 #include "granum/gas/flow.hpp"
 #include "granum/product/all.hpp"
@@ -32,7 +33,13 @@ drying::Settings drying_settings(Case const& data);
 //! Radius of a parcel, m, and of the largest granule given by hand.
 double largest_radius(Case const& data);
 
-//! The step that `granum run` takes if the case names none: the least of the bounds; `speed` (m/s) is a typical speed.
+//! What bounds the granule step: of each density the smallest parcel or granule given by hand.
+std::vector<dem::Grains> granule_kinds(Case const& data);
+
+//! Speed at which the two fastest of the granules given by hand would meet head-on, m/s.
+double fastest_meeting(Case const& data);
+
+//! The step that `granum run` takes if the case names none: the least of the bounds at the expected contact speed.
 double granule_step(Case const& data);
 
 //! Cells along the three directions: those of the gas, or for a run without gas enough for the ranks along x.

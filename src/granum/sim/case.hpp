@@ -26,6 +26,8 @@ struct ContactPair
     double restitution = 0.8;
     double sliding_friction = 0.3;
     double rolling_friction = 0.01;
+    double rolling_damping = 0.3;  //!< of `epsd-dashpot`
+    double stiffness = 1000;       //!< of `linear`, N/m
 };
 
 //! [contact]
@@ -37,8 +39,11 @@ struct ContactCase
     std::string normal = "hertz-tsuji";  //!< law names
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
-    bool lever_radius = false;     //!< lever arm R instead of R - overlap/2
-    bool keep_attraction = false;  //!< keep the tensile end of a damped contact (Tsuji's own damping)
+    std::optional<double> contact_time;  //!< of `linear`, in place of stiffnesses: of two of the smallest granules, s
+    double tangential_ratio = 2.0 / 7;   //!< of `linear`: tangential over normal stiffness
+    double reference_speed = 1;          //!< of `hertz-viscoelastic`: where the restitution is that given, m/s
+    bool lever_radius = false;           //!< lever arm R instead of R - overlap/2
+    bool keep_attraction = false;        //!< keep the tensile end of a damped contact (Tsuji's own damping)
 };
 
 //! One granule given by hand ([[granule]] tables or a CSV file).

@@ -177,6 +177,60 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
         file.derived("granules.parcels", fmt::format("{}", granules.parcels), "number of parcels");
 }
 
+namespace
+{
+//! A key that only one law reads is a mistake where another law is chosen.
+bool belongs_to(io::CaseFile& file, char const* key, char const* slot, std::string const& chosen, char const* law)
+{
+    if (chosen == law) return true;
+    if (file.has(key))
+        file.mistake(key, fmt::format("has no meaning for {} = \"{}\"", slot, chosen),
+                     {fmt::format("only {} = \"{}\" uses it: choose that law or leave the key out", slot, law)});
+    file.know(key);
+    return false;
+}
+
+void read_law_parameters(io::CaseFile& file, ContactCase& contact)
+{
+    auto& own = contact.granule_granule;
+    auto& wall = contact.granule_wall;
+    auto const linear = [&](char const* key) {
+        return belongs_to(file, key, "contact.normal", contact.normal, "linear");
+    };
+    if (linear("contact.contact_time"))
+        contact.contact_time =
+            file.optional_quantity("contact.contact_time", Dimension::time,
+                                   "of two of the smallest granules; sets the stiffnesses", io::positive);
+    for (auto const* key : {"contact.stiffness", "contact.wall_stiffness"})
+        if (contact.contact_time && file.has(key))
+            file.mistake(key, "does not go with contact.contact_time, which sets the stiffness",
+                         {"leave one of the two out"});
+    if (linear("contact.stiffness"))
+        own.stiffness = file.quantity("contact.stiffness", Dimension::stiffness, own.stiffness,
+                                      "of granule on granule, normal", io::positive);
+    if (linear("contact.wall_stiffness"))
+        wall.stiffness = file.quantity("contact.wall_stiffness", Dimension::stiffness, own.stiffness,
+                                       "of granule on wall, normal", io::positive);
+    if (linear("contact.tangential_ratio"))
+        contact.tangential_ratio = file.quantity("contact.tangential_ratio", Dimension::one, contact.tangential_ratio,
+                                                 "tangential over normal stiffness", io::zero_to_one);
+    if (belongs_to(file, "contact.reference_speed", "contact.normal", contact.normal, "hertz-viscoelastic"))
+        contact.reference_speed =
+            file.quantity("contact.reference_speed", Dimension::velocity, contact.reference_speed,
+                          "at which two of the smallest granules have the given restitution", io::positive);
+    io::Range const damping{.low = 0, .high = 10};
+    auto const dashpot = [&](char const* key) {
+        return belongs_to(file, key, "contact.rolling", contact.rolling, "epsd-dashpot");
+    };
+    if (dashpot("contact.rolling_damping"))
+        own.rolling_damping = file.quantity("contact.rolling_damping", Dimension::one, own.rolling_damping,
+                                            "of granule on granule, over critical damping", damping);
+    if (dashpot("contact.wall_rolling_damping"))
+        wall.rolling_damping = file.quantity("contact.wall_rolling_damping", Dimension::one, own.rolling_damping,
+                                             "of granule on wall, over critical damping", damping);
+}
+}
+
 void read_contact(io::CaseFile& file, Case& data)
 {
     ContactCase& contact = data.contact;
@@ -186,6 +240,12 @@ void read_contact(io::CaseFile& file, Case& data)
     auto const number = [&](char const* key, double fallback, char const* doc, io::Range range) {
         return file.quantity(key, Dimension::one, fallback, doc, range);
     };
+    contact.normal =
+        file.name("contact.normal", contact.normal, "law", laws_for("contact.normal"), "a normal contact law");
+    contact.tangential = file.name("contact.tangential", contact.tangential, "law", laws_for("contact.tangential"),
+                                   "a tangential contact law");
+    contact.rolling =
+        file.name("contact.rolling", contact.rolling, "law", laws_for("contact.rolling"), "a rolling contact law");
     io::Range const poisson{.low = 0, .high = 0.5};
     contact.granule.youngs_modulus =
         modulus("contact.youngs_modulus", contact.granule.youngs_modulus, "of the granules, usually softened");
@@ -208,14 +268,9 @@ void read_contact(io::CaseFile& file, Case& data)
         number("contact.wall_sliding_friction", own.sliding_friction, "of granule on wall", io::not_negative);
     wall.rolling_friction =
         number("contact.wall_rolling_friction", own.rolling_friction, "of granule on wall", io::not_negative);
-    contact.normal =
-        file.name("contact.normal", contact.normal, "law", laws_for("contact.normal"), "a normal contact law");
-    contact.tangential = file.name("contact.tangential", contact.tangential, "law", laws_for("contact.tangential"),
-                                   "a tangential contact law");
-    contact.rolling =
-        file.name("contact.rolling", contact.rolling, "law", laws_for("contact.rolling"), "a rolling contact law");
     contact.lever_radius = file.boolean("contact.lever_radius", false, "lever arm R instead of R - overlap/2");
     contact.keep_attraction =
         file.boolean("contact.keep_attraction", false, "keep the tensile end of a damped contact");
+    read_law_parameters(file, contact);
 }
 }

@@ -44,17 +44,13 @@ Moduli moduli(ContactMaterial const& granule)
     return {granule.youngs_modulus / (2 * (1 - nu * nu)), shear / (2 * (2 - nu))};
 }
 
-double fastest_given(Case const& data)
-{
-    double speed = 0;
-    for (auto const& one : data.granules.given) speed = std::max(speed, norm(one.velocity));
-    return speed;
-}
-
-//! Largest overlap, m, of two equal spheres that meet at `speed` without loss (Hertz).
+//! Largest overlap, m, of two equal spheres that meet at `speed` without loss (Hertz, or the linear spring).
 double largest_overlap(Case const& data, double radius, double speed)
 {
     double const mass = data.granules.density * 4 / 3 * math::pi * radius * radius * radius;
+    auto const laws = granule_settings(data).laws;
+    if (std::holds_alternative<law::contact::Linear>(laws.normal))
+        return speed * std::sqrt(mass / 2 / laws.effective(0, 0).stiffness);
     return std::pow(
         15 * (mass / 2) * speed * speed / (16 * moduli(data.contact.granule).normal * std::sqrt(radius / 2)), 0.4);
 }
@@ -150,12 +146,12 @@ double plate_velocity(Case const& data)
 
 double expected_contact_speed(Case const& data)
 {
-    return std::max({1.0, plate_velocity(data), fastest_given(data)});
+    return std::max({1.0, plate_velocity(data), fastest_meeting(data)});
 }
 
 std::vector<dem::StepBound> granule_step_bounds(Case const& data, double speed)
 {
-    return dem::step_bounds(granule_settings(data), parcel_radius(data), data.granules.density, speed);
+    return dem::step_bounds(granule_settings(data).laws, granule_kinds(data), speed);
 }
 
 bool has_balance(Case const& data)
@@ -175,7 +171,7 @@ Forecast forecast(Case const& data, int ranks)
         double const radius = parcel_radius(data);
         out.parcel_diameter = 2 * radius;
         out.contact_speed = expected_contact_speed(data);
-        out.overlap_speed = std::max({0.5, 0.5 * out.plate_velocity, fastest_given(data)});
+        out.overlap_speed = std::max({0.5, 0.5 * out.plate_velocity, fastest_meeting(data)});
         out.overlap = largest_overlap(data, radius, out.overlap_speed) / radius;
         out.bounds = granule_step_bounds(data, out.contact_speed);
         double least = out.bounds.front().seconds;

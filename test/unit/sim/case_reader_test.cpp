@@ -2,6 +2,8 @@
 #include "granum/sim/case_reader.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/math/constants.hpp"
+#include "granum/sim/build.hpp"
 #include "granum/sim/forecast.hpp"
 #include "granum/sim/law_families.hpp"
 
@@ -42,6 +44,33 @@ std::string mistakes_of(std::string const& text)
 std::string const box =
     "[apparatus]\nshape = \"box\"\nsize = [\"10 cm\", \"10 cm\", \"1 m\"]\n[time]\nduration = \"1 s\"\n";
 std::string const gas = "[gas]\ntemperature = \"80 degC\"\ncells = [10, 10, 100]\n";
+}
+
+TEST(CaseReader, turns_a_contact_time_into_stiffnesses_that_last_as_long)
+{
+    auto const text = [](char const* more) {
+        return box + "[granules]\ndiameter = \"2 mm\"\ndensity = \"1500 kg/m3\"\nmass = \"1 g\"\n[contact]\n" +
+               "normal = \"linear\"\nrestitution = 1\n" + more;
+    };
+    auto const data = read_text(text("contact_time = \"1 ms\"\n")).data;
+    auto const laws = granule_settings(data).laws;
+    double const mass = data.granules.density * math::pi / 6 * 8e-9;
+    EXPECT_NEAR(math::pi * std::sqrt(0.5 * mass / laws.effective(0, 0).stiffness), 1e-3, 1e-12);
+    EXPECT_NEAR(math::pi * std::sqrt(mass / laws.effective(0, 1).stiffness), 1e-3, 1e-12);
+    EXPECT_NEAR(granule_step(data), 1e-3 / 20, 1e-12);
+    EXPECT_NE(mistakes_of(text("contact_time = \"1 ms\"\nstiffness = \"100 N/m\"\n")).find("does not go with"),
+              std::string::npos);
+    EXPECT_NE(mistakes_of(text("stiffness = \"100 Pa\"\n")).find("contact.stiffness"), std::string::npos);
+}
+
+TEST(CaseReader, refuses_the_parameter_of_a_contact_law_that_is_not_chosen)
+{
+    for (auto const* line : {"stiffness = \"100 N/m\"", "wall_stiffness = \"100 N/m\"", "contact_time = \"1 ms\"",
+                             "tangential_ratio = 0.3", "reference_speed = \"1 m/s\"", "rolling_damping = 0.3",
+                             "wall_rolling_damping = 0.3"}) {
+        auto const what = mistakes_of(box + "[granules]\nmass = \"1 g\"\n[contact]\n" + line + "\n");
+        EXPECT_NE(what.find("has no meaning for contact."), std::string::npos) << line << ": " << what;
+    }
 }
 
 TEST(CaseReader, resolves_the_lab_example_to_what_it_says)
