@@ -1,10 +1,5 @@
-#include "granum/dem/engine.hpp"
-
 #include "granum/base/error.hpp"
-#include "granum/dem/contact_sweep.hpp"
-#include "granum/dem/halo.hpp"
-#include "granum/dem/neighbours.hpp"
-#include "granum/particle/rows.hpp"
+#include "granum/dem/engine_inside.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,178 +8,183 @@ namespace granum::dem
 {
 using base::Stage;
 
-struct Engine::Inside
+namespace
 {
-    Settings settings;
-    par::Communicator comm;
-    Halo halo;
-    ContactSweep sweep;
-    NeighbourSearch search;
-    ContactStore contacts;
-    SavedContacts saved;
-    std::vector<particle::Attachment*> attachments;
-    Watch watch;
-    base::Stopwatch stopwatch;
-
-    double skin = 0;             // of the present list, m
-    double growth = 0;           // largest growth of a radius since the list was made, m
-    std::vector<Vec3> built_at;  // positions when the list was made
-    std::vector<double> built_radius;
-    long steps = 0;
-    std::string failure;  // seen on this rank, not yet told to the others
-
-    Inside(Settings given, par::Slabs const& slabs, par::Communicator const& communicator)
-        : settings(std::move(given)),
-          comm(communicator),
-          halo({settings.lower, settings.upper, settings.periodic}, slabs, communicator),
-          sweep(settings.laws, settings.walls, {settings.warn_overlap, settings.stop_overlap})
-    {
-    }
-
-    // 0: go on, 1: the neighbour list is outgrown, 2: failed.
-    void agree_on_failure(long mine, long worst) const
-    {
-        if (worst < 2) return;
-        if (mine == 2) throw base::NumericsError(failure);
-        throw base::NumericsError("stopped: another rank met a failure of the granules");
-    }
-
-    void find_non_finite(particle::Store const& granules)
-    {
-        for (std::size_t row = 0; row < granules.owned && failure.empty(); ++row)
-            if (!finite(granules.position[row]) || !finite(granules.velocity[row]) || !finite(granules.spin[row]) ||
-                !std::isfinite(granules.radius[row]) || !(granules.mass[row] > 0))
-                failure = fmt::format("granule {} has a state that is not finite at step {}", granules.id[row], steps);
-    }
-
-    void rebuild(particle::Store& granules);
-    void compute_forces(particle::Store& granules, double dt);
-    void kick(particle::Store& granules, double half);
-    long kick_and_drift(particle::Store& granules, double dt);
-    void hold_frozen(particle::Store& granules, double dt) const;
-};
-
-void Engine::Inside::rebuild(particle::Store& granules)
+template <class Any>
+void const* address_of(Any const& law)
 {
-    auto const timing = stopwatch.time(Stage::neighbours);
-    find_non_finite(granules);
-    long const mine = failure.empty() ? 0 : 2;
-    agree_on_failure(mine, comm.max(mine));
-
-    auto const& radii = granules.radius.values;
-    auto const owned_end = radii.begin() + static_cast<std::ptrdiff_t>(granules.owned);
-    double const largest = comm.max(granules.owned > 0 ? *std::max_element(radii.begin(), owned_end) : 0.0);
-    skin = settings.skin > 0 ? settings.skin : 0.5 * largest;
-    double const reach = 2 * largest + skin;
-    halo.check_width(largest, reach);
-
-    saved.collect(contacts, granules);
-    halo.settle(granules, saved, attachments);
-    reorder(granules, search.sorted_rows(granules, reach));
-    halo.fill(granules, reach);
-
-    search.pairs(granules, reach, skin, contacts.pairs);
-    contacts.touching.assign(contacts.pairs.size(), 0);
-    contacts.history.resize(contacts.pairs.size());
-    for (std::size_t k = 0; k < contacts.pairs.size(); ++k) {
-        auto const [i, j] = contacts.pairs[k];
-        double const sum = granules.radius[i] + granules.radius[j];
-        if (norm2(granules.position[i] - granules.position[j]) >= sum * sum) continue;
-        if (auto const* history = saved.find(granules.id[i], granules.id[j])) {
-            contacts.history[k] = *history;
-            contacts.touching[k] = 1;
-        }
-    }
-    contacts.wall_rows.clear();
-    for (std::uint32_t row = 0; row < granules.owned; ++row)
-        for (std::uint32_t wall = 0; wall < settings.walls.size(); ++wall)
-            if (touch(settings.walls[wall].surface, granules.position[row], granules.radius[row] + skin))
-                contacts.wall_rows.push_back({row, wall});
-    contacts.wall_touching.assign(contacts.wall_rows.size(), 0);
-    contacts.wall_history.resize(contacts.wall_rows.size());
-    for (std::size_t k = 0; k < contacts.wall_rows.size(); ++k) {
-        auto const [row, wall] = contacts.wall_rows[k];
-        if (auto const* history = saved.find(granules.id[row], SavedContacts::wall_bit | wall)) {
-            contacts.wall_history[k] = *history;
-            contacts.wall_touching[k] = 1;
-        }
-    }
-    auto const owned = static_cast<std::ptrdiff_t>(granules.owned);
-    built_at.assign(granules.position.values.begin(), granules.position.values.begin() + owned);
-    built_radius.assign(radii.begin(), radii.begin() + owned);
-    growth = 0;
-    ++watch.rebuilds;
+    return std::visit([](auto const& chosen) -> void const* { return &chosen; }, law);
 }
 
-void Engine::Inside::compute_forces(particle::Store& granules, double dt)
+std::size_t history_columns(Laws const& laws)
+{
+    auto const count = [](auto const& law) {
+        return std::visit([](auto const& chosen) { return static_cast<std::size_t>(chosen.history); }, law);
+    };
+    return count(laws.tangential) + count(laws.rolling);
+}
+
+// Whether gas acts on granules in this interval.
+bool feels_gas(particle::Store const& granules)
+{
+    if (!granules.groups.gas) return false;
+    for (std::size_t row = 0; row < granules.owned; ++row)
+        if (granules.drag_rate[row] != 0 || granules.gas_force[row] != Vec3{}) return true;
+    return false;
+}
+}
+
+Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicator const& communicator)
+    : settings(std::move(given)),
+      domain{settings.lower, settings.upper, settings.periodic},
+      comm(communicator),
+      halo(std::move(partition), communicator),
+      kernel(settings.kernel.empty() ? kernel::kernels().front() : kernel::find_kernel(settings.kernel))
+{
+    base::require(kernel != nullptr, "this processor has no kernel called \"{}\"", settings.kernel);
+    auto const& laws = settings.laws;
+    for (std::uint32_t a = 0; a < laws.materials.size(); ++a)
+        for (std::uint32_t b = 0; b < laws.materials.size(); ++b) pairings.push_back(laws.effective(a, b));
+    rules = {.normal_index = laws.normal.index(),
+             .tangential_index = laws.tangential.index(),
+             .rolling_index = laws.rolling.index(),
+             .normal = address_of(laws.normal),
+             .tangential = address_of(laws.tangential),
+             .rolling = address_of(laws.rolling),
+             .pairs = pairings.data(),
+             .materials = laws.materials.size(),
+             .lever_shift = laws.lever == Lever::contact_point ? 0.5 : 0.0,
+             .ledger = settings.energy_ledger,
+             .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0)};
+    pairs.shape(rules.columns);
+    walls.shape(rules.columns);
+    frame.scale_to(laws);
+}
+
+void Engine::Inside::agree_on_failure()
+{
+    bool const mine = !failure.empty();
+    if (comm.max(mine ? 1L : 0L) == 0) return;
+    if (mine) throw base::NumericsError(failure);
+    throw base::NumericsError("stopped: another rank met a failure of the granules");
+}
+
+void Engine::Inside::find_non_finite()
+{
+    for (std::size_t row = 0; row < frame.owned && failure.empty(); ++row) {
+        auto const& body = frame.bodies[row];
+        bool good = std::isfinite(body.radius) && body.inverse_mass > 0 && std::isfinite(body.inverse_mass);
+        for (std::size_t d = 0; d < 3; ++d)
+            good = good && std::isfinite(body.position[d] + body.velocity[d] + body.spin[d]);
+        if (!good) failure = fmt::format("granule {} has a state that is not finite at step {}", frame.id[row], steps);
+    }
+}
+
+void Engine::Inside::name_overlap()
+{
+    double worst = settings.stop_overlap;
+    std::string who;
+    for (std::size_t b = 0; b < pairs.blocks(); ++b)
+        for (std::size_t lane = 0; lane < kernel::block; ++lane) {
+            if (!pairs.touching(b, lane)) continue;
+            auto const low = pairs.rows(b).low[lane], high = pairs.rows(b).high[lane];
+            double const distance = norm(frame.position(low) - frame.position(high) + pairs.shift(b, lane, domain));
+            double const overlap = (frame.radius(low) + frame.radius(high) - distance) /
+                                   std::min(frame.radius(low), frame.radius(high));
+            if (overlap <= worst) continue;
+            worst = overlap;
+            who = fmt::format("granules {} and {} overlap by {:.0f} % of a radius", frame.id[low], frame.id[high],
+                              100 * overlap);
+        }
+    for (std::size_t k = 0; k < walls.size(); ++k)
+        if (double const overlap = walls.overlap(k) / frame.radius(walls.row(k)); overlap > worst) {
+            worst = overlap;
+            who = fmt::format("granule {} is {:.0f} % of its radius in wall {}", frame.id[walls.row(k)], 100 * overlap,
+                              walls.wall(k));
+        }
+    failure = fmt::format(
+        "{} at step {}: the time step is too long, the stiffness too low or granules were placed into each other", who,
+        steps);
+}
+
+void Engine::Inside::forces(double dt)
 {
     auto const timing = stopwatch.time(Stage::contacts);
-    for (std::size_t row = 0; row < granules.owned; ++row) granules.force[row] = granules.mass[row] * settings.gravity;
-    std::fill(granules.force.values.begin() + static_cast<std::ptrdiff_t>(granules.owned), granules.force.values.end(),
-              Vec3{});
-    std::fill(granules.torque.values.begin(), granules.torque.values.end(), Vec3{});
-    auto const seen = sweep(granules, contacts, dt);
+    kernel::Seen seen;
+    pairs.run(*kernel, rules, frame, domain, dt, seen);
+    walls.run(*kernel, rules, frame, settings.walls, dt, seen);
     watch.largest_overlap = std::max(watch.largest_overlap, seen.largest_overlap);
     if (seen.largest_overlap > settings.warn_overlap) ++watch.warned_overlaps;
     watch.contacts = seen.contacts;
-    watch.dissipated += seen.dissipated;
+    watch.dissipated += seen.dissipated + pairs.take_lost_energy() + walls.take_lost_energy();
     watch.elastic = seen.elastic;
-    watch.wall_force = seen.wall_force;
-    if (!seen.failure.empty()) {
-        failure = fmt::format(
-            "{} at step {}: the time step is too long, the stiffness too low or granules were placed "
-            "into each other",
-            seen.failure, steps);
+    if (seen.largest_overlap > settings.stop_overlap) {
+        name_overlap();
         if (comm.size() == 1) throw base::NumericsError(failure);
     }
 }
 
-void Engine::Inside::kick(particle::Store& granules, double half)
+void Engine::Inside::kick_with_gas(particle::Store& granules, double half)
 {
-    for (std::size_t row = 0; row < granules.owned; ++row) {
-        double const mass = granules.mass[row], radius = granules.radius[row];
-        auto& velocity = granules.velocity[row];
-        if (granules.groups.gas) {
-            double const rate = granules.drag_rate[row];
-            Vec3 const& gas = granules.gas_velocity[row];
-            Vec3 const given = granules.force[row] + granules.gas_force[row];
-            velocity = (velocity + half * (given * (1 / mass) + rate * gas)) * (1 / (1 + half * rate));
-            granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
-        } else {
-            velocity += (half / mass) * granules.force[row];
+    for (std::size_t row = 0; row < frame.owned; ++row) {
+        auto& body = frame.bodies[row];
+        auto const& sum = frame.sums[row];
+        double const rate = granules.drag_rate[row], mass = granules.mass[row];
+        Vec3 const& gas = granules.gas_velocity[row];
+        Vec3 const pull = (Frame::vec(sum.force) + granules.gas_force[row]) * body.inverse_mass + settings.gravity;
+        Vec3 const velocity = (Frame::vec(body.velocity) + half * (pull + rate * gas)) * (1 / (1 + half * rate));
+        granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
+        double const turning = half * 2.5 * body.inverse_mass / (body.radius * body.radius);
+        for (std::size_t d = 0; d < 3; ++d) {
+            body.velocity[d] = velocity[d];
+            body.spin[d] += turning * sum.torque[d];
         }
-        granules.spin[row] += (half / (0.4 * mass * radius * radius)) * granules.torque[row];
     }
 }
 
-long Engine::Inside::kick_and_drift(particle::Store& granules, double dt)
+double Engine::Inside::farthest() const
 {
-    kick(granules, 0.5 * dt);
-    double const free = std::max(0.0, 0.5 * skin - growth);
     double farthest2 = 0;
-    bool finite_all = true;
-    for (std::size_t row = 0; row < granules.owned; ++row) {
-        auto& position = granules.position[row];
-        position += dt * granules.velocity[row];
-        double const moved2 = norm2(position - built_at[row]);
-        finite_all = finite_all && std::isfinite(moved2 + norm2(granules.spin[row]));
-        farthest2 = std::max(farthest2, moved2);
-    }
-    if (!finite_all) find_non_finite(granules);
-    if (!failure.empty()) return 2;
-    return farthest2 > free * free ? 1 : 0;
+    for (std::size_t row = 0; row < frame.owned; ++row)
+        farthest2 = std::max(farthest2, norm2(frame.position(row) - built_at[row]));
+    return std::sqrt(farthest2);
+}
+
+// Whether the list no longer holds all that may touch, when no granule moved by more than `moved` (m) in this step. The
+// sum of such bounds grows faster than the true distance, which is looked up when the bound is used up. Collective.
+bool Engine::Inside::outgrown(double moved)
+{
+    struct
+    {
+        double moved, failed;
+    } mine{moved, failure.empty() ? 0.0 : 1.0};
+    if (comm.size() > 1) MPI_Allreduce(MPI_IN_PLACE, &mine, 2, MPI_DOUBLE, MPI_MAX, comm.handle());
+    if (mine.failed > 0) agree_on_failure();
+    travelled += mine.moved;
+    double const free = std::max(0.0, 0.5 * skin - growth);
+    if (travelled <= free) return false;
+    travelled = comm.max(farthest());
+    // What is left must do for some steps, or the true distance would be looked up in each of them.
+    return travelled + 4 * mine.moved > free;
 }
 
 void Engine::Inside::hold_frozen(particle::Store& granules, double dt) const
 {
+    if (!granules.groups.gas) return;
     for (std::size_t row = 0; row < granules.owned; ++row)
         granules.drag_impulse[row] +=
             (granules.mass[row] * granules.drag_rate[row] * dt) * (granules.gas_velocity[row] - granules.velocity[row]);
 }
 
-Engine::Engine(Settings settings, par::Slabs const& slabs, par::Communicator const& comm)
-    : inside_(std::make_unique<Inside>(std::move(settings), slabs, comm))
+Engine::Engine(Settings settings, par::Partition partition, par::Communicator const& comm)
+    : inside_(std::make_unique<Inside>(std::move(settings), std::move(partition), comm))
 {
+}
+
+Engine::Engine(Settings settings, par::Slabs const& slabs, par::Communicator const& comm)
+{
+    par::Partition partition({{settings.lower, settings.upper}, settings.periodic}, slabs);
+    inside_ = std::make_unique<Inside>(std::move(settings), std::move(partition), comm);
 }
 
 Engine::~Engine() = default;
@@ -197,60 +197,180 @@ void Engine::attach(particle::Attachment& attachment)
 void Engine::prepare(particle::Store& granules)
 {
     auto& in = *inside_;
-    in.rebuild(granules);
-    in.compute_forces(granules, 0);
-    long const mine = in.failure.empty() ? 0 : 2;
-    in.agree_on_failure(mine, in.comm.max(mine));
+    std::vector<ContactRecord> known;
+    in.pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const& history) {
+        known.push_back({in.frame.id[low], in.frame.id[high], history});
+    });
+    in.walls.for_each_touching([&](std::uint32_t row, std::uint32_t wall, History const& history) {
+        known.push_back({in.frame.id[row], ContactRecord::wall_bit | Id{wall} << 8, history});
+    });
+    resume(granules, known);
+    std::fill(in.frame.sums.begin(), in.frame.sums.end(), kernel::Sum{});
+    in.forces(0);
+    in.agree_on_failure();
+    in.watch.wall_force = in.walls.force();
+    in.frame.give(granules);
 }
 
-void Engine::step(particle::Store& granules, double dt)
+void Engine::resume(particle::Store& granules, std::span<ContactRecord const> contacts)
 {
     auto& in = *inside_;
-    ++in.steps;
+    in.pairs = {};
+    in.walls = {};
+    in.pairs.shape(in.rules.columns);
+    in.walls.shape(in.rules.columns);
+    in.frame.take(granules);
+    in.rebuild(granules, contacts);
+    in.frame.give(granules);
+}
+
+void Engine::advance(particle::Store& granules, double dt, int steps)
+{
+    auto& in = *inside_;
     if (in.settings.frozen) {
-        if (granules.groups.gas) in.hold_frozen(granules, dt);
+        for (int k = 0; k < steps; ++k) in.hold_frozen(granules, dt);
+        in.steps += steps;
         return;
     }
-    long mine = 0;
-    {
+    in.frame.refresh(granules);
+    bool const gas = feels_gas(granules);
+    double const half = 0.5 * dt;
+    auto const move = [&](int kicks, double drift) {
         auto const timing = in.stopwatch.time(Stage::contacts);
-        mine = in.kick_and_drift(granules, dt);
+        kernel::MotionSeen seen;
+        if (gas)
+            for (int kick = 0; kick < kicks; ++kick) in.kick_with_gas(granules, half);
+        kernel::Motion motion{.bodies = in.frame.bodies.data(),
+                              .sums = in.frame.sums.data(),
+                              .rows = in.frame.owned,
+                              .gravity = {in.settings.gravity.x, in.settings.gravity.y, in.settings.gravity.z},
+                              .half = half,
+                              .drift = drift,
+                              .kicks = gas ? 0 : kicks,
+                              .clear = drift != 0};
+        if (!gas || drift != 0) in.kernel->move(motion, seen);
+        if (!seen.finite) in.find_non_finite();
+        return std::sqrt(seen.fastest2) * drift;
+    };
+    for (int k = 0; k < steps; ++k) {
+        ++in.steps;
+        double const moved = move(k == 0 ? 1 : 2, dt);
+        if (in.comm.size() == 1 && !in.failure.empty()) throw base::NumericsError(in.failure);
+        if (in.outgrown(moved)) {
+            in.rebuild(granules);
+        } else if (in.comm.size() > 1) {
+            auto const timing = in.stopwatch.time(Stage::neighbours);
+            in.halo.refresh_motion(in.frame);
+        }
+        in.forces(dt);
     }
-    long const worst = in.comm.size() > 1 ? in.comm.max(mine) : mine;
-    in.agree_on_failure(mine, worst);
-    if (worst == 1) {
-        in.rebuild(granules);
-    } else {
-        auto const timing = in.stopwatch.time(Stage::neighbours);
-        in.halo.refresh_motion(granules);
-    }
-    in.compute_forces(granules, dt);
-    auto const timing = in.stopwatch.time(Stage::contacts);
-    in.kick(granules, 0.5 * dt);
+    move(1, 0);
+    in.watch.wall_force = in.walls.force();
+    in.frame.give(granules);
 }
 
 void Engine::changed(particle::Store& granules)
 {
     auto& in = *inside_;
+    in.frame.refresh(granules);
     double growth = 0;
     for (std::size_t row = 0; row < granules.owned; ++row)
         growth = std::max(growth, granules.radius[row] - in.built_radius[row]);
     in.growth = in.comm.max(growth);
-    if (in.growth > 0.25 * in.skin)
+    if (in.growth > 0.25 * in.skin) {
         in.rebuild(granules);
-    else
-        in.halo.refresh_all(granules);
+        in.frame.give(granules);
+    } else if (in.comm.size() > 1) {
+        in.halo.refresh_all(in.frame);
+    }
 }
 
 void Engine::bring_home(particle::Store& granules)
 {
     auto& in = *inside_;
-    if (in.comm.max(in.halo.strayed(granules) ? 1L : 0L) > 0) in.rebuild(granules);
+    if (in.comm.max(in.strayed() ? 1L : 0L) == 0) return;
+    in.rebuild(granules);
+    in.frame.give(granules);
 }
 
-ContactStore const& Engine::contacts() const
+void Engine::rebalance(particle::Store& granules)
 {
-    return inside_->contacts;
+    auto& in = *inside_;
+    in.balance(granules);
+    in.rebuild(granules);
+    in.frame.give(granules);
+}
+
+std::vector<Contact> Engine::contacts() const
+{
+    auto const& in = *inside_;
+    auto const& frame = in.frame;
+    std::vector<Contact> out;
+    auto const normal_force = [&](std::size_t pairing, double overlap, double radius, double mass, double speed) {
+        law::contact::Approach<double> const at{.overlap = overlap, .radius = radius, .mass = mass, .inertia = 1, .speed = speed, .step = 0};
+        return std::visit([&](auto const& law) { return law(in.pairings[pairing], at).force; }, in.settings.laws.normal);
+    };
+    std::size_t const materials = in.rules.materials;
+    for (std::size_t b = 0; b < in.pairs.blocks(); ++b)
+        for (std::size_t lane = 0; lane < kernel::block; ++lane) {
+            if (!in.pairs.touching(b, lane)) continue;
+            auto const low = in.pairs.rows(b).low[lane], high = in.pairs.rows(b).high[lane];
+            auto const &one = frame.bodies[low], &other = frame.bodies[high];
+            Vec3 const apart = frame.position(low) - frame.position(high) + in.pairs.shift(b, lane, in.domain);
+            double const distance = norm(apart), overlap = one.radius + other.radius - distance;
+            double const speed = dot(Frame::vec(one.velocity) - Frame::vec(other.velocity), apart) / distance;
+            out.push_back({frame.id[low], frame.id[high], false, overlap,
+                           normal_force(frame.material[low] * materials + frame.material[high], overlap,
+                                        one.radius * other.radius / (one.radius + other.radius),
+                                        1 / (one.inverse_mass + other.inverse_mass), speed),
+                           in.pairs.history(b, lane)});
+        }
+    for (std::size_t k = 0; k < in.walls.size(); ++k) {
+        if (!in.walls.touches(k)) continue;
+        auto const row = in.walls.row(k), wall = in.walls.wall(k);
+        auto const& body = frame.bodies[row];
+        double const speed = dot(Frame::vec(body.velocity), in.walls.normal(k));
+        out.push_back({frame.id[row], wall, true, in.walls.overlap(k),
+                       normal_force(frame.material[row] * materials + in.settings.walls[wall].material,
+                                    in.walls.overlap(k), body.radius, 1 / body.inverse_mass, speed),
+                       in.walls.history(k)});
+    }
+    return out;
+}
+
+std::vector<ContactRecord> Engine::save_contacts() const
+{
+    auto const& in = *inside_;
+    std::vector<ContactRecord> out;
+    in.pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const& history) {
+        if (low < in.frame.owned) out.push_back({in.frame.id[low], in.frame.id[high], history});
+    });
+    in.walls.for_each_touching([&](std::uint32_t row, std::uint32_t wall, History const& history) {
+        out.push_back({in.frame.id[row], ContactRecord::wall_bit | Id{wall} << 8, history});
+    });
+    return out;
+}
+
+long Engine::candidates() const
+{
+    return static_cast<long>(inside_->pairs.pairs());
+}
+double Engine::skin() const
+{
+    return inside_->skin;
+}
+std::string Engine::kernel() const
+{
+    return std::string(inside_->kernel->name);
+}
+std::size_t Engine::bytes() const
+{
+    auto const& in = *inside_;
+    return in.frame.bodies.capacity() * (sizeof(kernel::Body) + sizeof(kernel::Sum)) + in.pairs.bytes();
+}
+par::Partition const& Engine::partition() const
+{
+    return inside_->halo.partition();
 }
 Settings const& Engine::settings() const
 {

@@ -1,21 +1,25 @@
-// The granule engine: contacts, walls and motion of soft spheres on this rank's slab.
+// The granule engine: contacts, walls and motion of soft spheres on this rank's part of space.
 //
 // One step is velocity Verlet with the drag of the held gas taken implicitly in each half kick:
 // v <- (v + h (F/m + rate u)) / (1 + h rate), h = dt/2, so that a stiff drag never limits the step and steady states
 // are exact. The impulse that the gas gave is summed in `drag_impulse`.
+//
+// Without gas a state has the same bits on any number of ranks, with any neighbour list, in any order of rows and after
+// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius.
 #pragma once
 
 #include "granum/base/timer.hpp"
 #include "granum/dem/contact_laws.hpp"
-#include "granum/dem/contact_store.hpp"
+#include "granum/dem/halo.hpp"
 #include "granum/geometry/wall.hpp"
 #include "granum/par/communicator.hpp"
-#include "granum/par/slabs.hpp"
+#include "granum/par/partition.hpp"
 #include "granum/particle/attachment.hpp"
 #include "granum/particle/store.hpp"
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,9 +32,12 @@ struct Settings
     math::Vec3 lower, upper;  //!< of the domain, m
     std::array<bool, 3> periodic{};
     math::Vec3 gravity{0, 0, -9.81};                  //!< m/s2
-    double skin = 0;                                  //!< of the neighbour list, m; 0: chosen from the largest radius
+    double skin = 0;                                  //!< of the neighbour list, m; 0: chosen and adapted while running
     double warn_overlap = 0.10, stop_overlap = 0.50;  //!< of a radius
     bool frozen = false;                              //!< granules stay where they are
+    bool energy_ledger = true;                        //!< account for what contacts store and dissipate
+    std::string kernel;  //!< "avx512", "avx2", "sse4", "scalar" or "reference"; empty: the fastest here
+    int balance_every = 0;  //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
 };
 
 //! What the steps saw since it was last reset (by whoever reads it).
@@ -39,39 +46,68 @@ struct Watch
     double largest_overlap = 0;  //!< over the radius of the smaller partner
     long warned_overlaps = 0;    //!< steps on which an overlap above the warning line appeared
     long rebuilds = 0;
+    long rebalances = 0;
     long contacts = 0;      //!< pairs and walls touching at the last step, this rank
     double dissipated = 0;  //!< J lost in contacts, this rank; of a pair split over two ranks each counts one half
     double elastic = 0;     //!< J stored in contacts at the last step, this rank
     math::Vec3 wall_force;  //!< sum of the forces of all walls on this rank's granules at the last step, N
 };
 
+//! A contact as others see it.
+struct Contact
+{
+    Id low, high;  //!< high is the number of the wall for a wall contact
+    bool wall;
+    double overlap;       //!< m
+    double normal_force;  //!< N, at the present velocities
+    History history;
+};
+
 class Engine
 {
   public:
+    Engine(Settings settings, par::Partition partition, par::Communicator const& comm);
     Engine(Settings settings, par::Slabs const& slabs, par::Communicator const& comm);
     ~Engine();
 
     //! Joins something that belongs to granules and must migrate with them (open deposits).
     void attach(particle::Attachment& attachment);
 
-    //! Sorts, migrates, fills ghosts, finds neighbours and computes the first forces. Collective. Also to be called
-    //! after granules were added or removed; contacts that go on keep their history. Throws NumericsError where the
-    //! domain is too narrow for the granules or the state is not finite.
+    //! Sorts, migrates, finds neighbours and computes the first forces. Collective. Also to be called after granules
+    //! were added or removed; contacts that go on keep their history. Throws NumericsError where the domain is too
+    //! narrow for the granules or the state is not finite.
     void prepare(particle::Store& granules);
 
-    //! One velocity-Verlet step. Collective. Throws NumericsError on a non-finite state or too large an overlap (on
-    //! several ranks on all of them: at the latest in the step after).
-    void step(particle::Store& granules, double dt);
+    //! As prepare, but for a state that was saved: forces and torques stay as they are, contacts get these histories
+    //! (those of granules elsewhere are passed over). The run goes on with the same bits. Collective.
+    void resume(particle::Store& granules, std::span<ContactRecord const> contacts);
 
-    //! Tells the engine that radii, masses or other columns that ghosts carry were changed from outside (growth).
+    //! `steps` velocity-Verlet steps. Collective. Throws NumericsError on a non-finite state or too large an overlap
+    //! (on several ranks on all of them: at the latest in the step after).
+    void advance(particle::Store& granules, double dt, int steps);
+    void step(particle::Store& granules, double dt) { advance(granules, dt, 1); }
+
+    //! Tells the engine that radii, masses or other columns that contacts ask for were changed from outside (growth).
     //! Collective. Rows keep their places.
     void changed(particle::Store& granules);
 
-    //! Makes sure that every owned granule lies in this rank's slab and in the periodic domain, so that a cell and the
+    //! Makes sure that every owned granule lies in this rank's part and in the periodic domain, so that a cell and the
     //! granules in it are on one rank; between steps they may be ahead by half a skin. Collective. Rows may move.
     void bring_home(particle::Store& granules);
 
-    ContactStore const& contacts() const;
+    //! Cuts space anew so that all ranks have as much to do. Collective. Rows may move.
+    void rebalance(particle::Store& granules);
+
+    //! All contacts that touch, as this rank sees them.
+    std::vector<Contact> contacts() const;
+    //! All contacts to save, each on one rank only.
+    std::vector<ContactRecord> save_contacts() const;
+
+    long candidates() const;     //!< pairs in the neighbour list
+    std::size_t bytes() const;   //!< of memory, about
+    double skin() const;         //!< of the present list, m
+    std::string kernel() const;  //!< instruction set in use
+    par::Partition const& partition() const;
     Settings const& settings() const;
     Watch& watch();
     base::Stopwatch& stopwatch();

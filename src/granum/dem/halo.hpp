@@ -1,74 +1,63 @@
-// Where granules live: wrapping at periodic faces, migration to the rank that owns their slab, ghosts near the faces.
+// Where granules live: wrapping at periodic faces, migration to the rank that owns their place, copies near the faces.
 //
-// Ghosts come in three rounds: from the neighbours along x, then images across periodic y, then across periodic z, each
-// round copying what the ones before brought, so that edges and corners are covered.
+// A copy holds the position of its owner to the last bit, over periodic faces too: the pair list knows the shift. So
+// both ranks of a split pair compute the same contact.
 #pragma once
 
-#include "granum/dem/contact_store.hpp"
-#include "granum/par/communicator.hpp"
-#include "granum/par/slabs.hpp"
+#include "granum/dem/pair_list.hpp"
+#include "granum/par/partition.hpp"
 #include "granum/particle/attachment.hpp"
 
-#include <array>
 #include <span>
 
 namespace granum::dem
 {
-//! The periodic box that granules live in.
-struct Domain
+//! A contact on its way to another rank, into a checkpoint or back.
+struct ContactRecord
 {
-    Vec3 lower, upper;  //!< m
-    std::array<bool, 3> periodic{};
+    static constexpr Id wall_bit = Id{1} << 63;
+
+    Id low;           //!< id of the granule, or of the one with the lower id
+    Id high;          //!< id of the partner, or wall_bit | wall << 8 | place
+    History history;  //!< the first partner against the second
 };
 
 class Halo
 {
   public:
-    Halo(Domain const& domain, par::Slabs const& slabs, par::Communicator const& comm);
+    Halo(par::Partition partition, par::Communicator const& comm) : partition_(std::move(partition)), comm_(comm) {}
 
-    //! Throws NumericsError where the domain is too narrow for ghosts within `reach` of granules of `largest_radius`,
-    //! m.
-    void check_width(double largest_radius, double reach) const;
+    par::Partition const& partition() const { return partition_; }
+    void partition(par::Partition fresh) { partition_ = std::move(fresh); }
+    int owner(Vec3 const& x) const { return partition_.owner(x); }
 
-    //! Brings owned granules back into the periodic domain and sends those that left the slab to their rank, with all
-    //! that belongs to them. Drops all ghosts. Collective.
-    void settle(particle::Store& granules, SavedContacts& contacts,
-                std::span<particle::Attachment* const> attachments) const;
+    //! Sends owned rows whose place belongs to another rank there, each with its `contacts` and what is attached, and
+    //! takes those that come. `kept` receives the former rows of those that stayed, in their order; arrivals stand
+    //! behind them. Returns the contacts that came. Collective.
+    std::vector<ContactRecord> migrate(particle::Store& granules,
+                                       std::function<std::vector<ContactRecord>(std::vector<std::uint32_t> const&)> const& contacts_of,
+                                       std::span<particle::Attachment* const> attachments,
+                                       std::vector<std::uint32_t>& kept) const;
 
-    //! True if an owned granule lies outside the slab or the periodic domain. Local.
-    bool strayed(particle::Store const& granules) const;
-
-    //! Appends ghosts within `reach` of the faces. Collective.
-    void fill(particle::Store& granules, double reach);
-
-    //! Copies position, velocity and spin from the owners to the ghosts. Collective.
-    void refresh_motion(particle::Store& granules);
-
-    //! Copies every column that ghosts carry. Collective.
-    void refresh_all(particle::Store& granules) const;
+    //! Appends copies of all granules of other ranks within `reach` (m) of this rank's part. Collective.
+    void fill(Frame& frame, double reach);
+    //! Copies position, velocity and spin from the owners. Collective.
+    void refresh_motion(Frame& frame);
+    //! Copies all that a copy holds. Collective.
+    void refresh_all(Frame& frame);
 
   private:
     struct Side
     {
-        int to = -1, from = -1;            // ranks
-        Vec3 shift;                        // of what arrives
+        int rank;
         std::vector<std::uint32_t> rows;   // what is sent
-        std::size_t first = 0, count = 0;  // ghost rows that arrive
+        std::size_t first = 0, count = 0;  // rows that arrive
         std::vector<double> out, in;       // buffers of refresh_motion
     };
-    struct Image
-    {
-        std::uint32_t row;
-        Vec3 shift;
-    };
 
-    void add_images(particle::Store& granules, std::size_t direction, double reach);
-
-    Domain domain_;
-    par::Slabs slabs_;
+    par::Partition partition_;
     par::Communicator comm_;
-    std::array<Side, 2> sides_;  // sent to the left, sent to the right
-    std::vector<Image> images_;
-    std::size_t first_image_ = 0;
+    std::vector<Side> sides_;
+    std::vector<MPI_Request> requests_;
 };
 }

@@ -3,96 +3,271 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace granum::dem
 {
-void NeighbourSearch::fill_cells(particle::Store const& granules, std::size_t rows, double reach)
+namespace
 {
-    auto const& x = granules.position.values;
+double nearest_image(double x, double centre, double length)
+{
+    return x - length * std::round((x - centre) / length);
+}
+
+// Of a difference between two places that lie within one length of each other.
+double shortest(double difference, double length)
+{
+    return difference > 0.5 * length ? difference - length : difference < -0.5 * length ? difference + length : difference;
+}
+}
+
+std::array<int, 3> NeighbourSearch::Cells::at(Place const& place) const
+{
+    std::array<int, 3> out{};
+    std::array<double, 3> const x{place.x, place.y, place.z};
+    for (std::size_t d = 0; d < 3; ++d)
+        out[d] = std::clamp(static_cast<int>((x[d] - lower[d]) * scale[d]), 0, number[d] - 1);
+    return out;
+}
+
+std::size_t NeighbourSearch::Cells::index(int i, int j, int k) const
+{
+    return static_cast<std::size_t>(i) * stride[0] + static_cast<std::size_t>(j) * stride[1] +
+           static_cast<std::size_t>(k) * stride[2];
+}
+
+void NeighbourSearch::fill(Cells& cells, Domain const& domain, std::vector<std::uint32_t> const& rows, double reach)
+{
     double const big = std::numeric_limits<double>::max();
     Vec3 low{big, big, big}, high{-big, -big, -big};
-    for (std::size_t row = 0; row < rows; ++row)
-        for (std::size_t d = 0; d < 3; ++d) {
-            low[d] = std::min(low[d], x[row][d]);
-            high[d] = std::max(high[d], x[row][d]);
-        }
+    for (auto const row : rows) {
+        auto const& p = unsorted_[row];
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    if (rows.empty()) low = high = {};
+    Vec3 const whole = domain.size();
     // Cells need not be finer than the granules are many: scattered granules get wider cells.
-    Vec3 scale;
     double width = reach;
     for (bool fits = false; !fits; width *= 1.5) {
         double total = 1;
         for (std::size_t d = 0; d < 3; ++d) {
-            double const extent = rows > 0 ? high[d] - low[d] : 0;
-            double const count = std::max(1.0, std::floor(extent / width));
+            double const extent = high[d] - low[d];
+            cells.wraps[d] = domain.periodic[d] && extent + width > whole[d];
+            double const length = cells.wraps[d] ? whole[d] : extent;
+            double const count = std::clamp(std::floor(length / width), 1.0, 1e6);
             total *= count;
-            cells_[d] = static_cast<int>(std::min(count, 1e6));
-            scale[d] = extent > 0 ? count / extent : 0;
+            cells.number[d] = static_cast<int>(count);
+            cells.scale[d] = length > 0 ? count / length : 0;
+            if (cells.wraps[d]) low[d] = std::min(low[d], high[d] - whole[d] * (1 - 1e-12));
+            cells.lower[d] = low[d];
         }
-        fits = total <= 4.0 * static_cast<double>(rows) + 64;
+        fits = total <= 4.0 * static_cast<double>(rows.size()) + 64;
     }
-    std::size_t const cells =
-        static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(cells_[2]);
-    cell_of_.resize(rows);
-    start_.assign(cells + 1, 0);
-    for (std::size_t row = 0; row < rows; ++row) {
-        std::array<int, 3> at{};
-        for (std::size_t d = 0; d < 3; ++d)
-            at[d] = std::min(static_cast<int>((x[row][d] - low[d]) * scale[d]), cells_[d] - 1);
-        cell_of_[row] = static_cast<std::uint32_t>((at[2] * cells_[1] + at[1]) * cells_[0] + at[0]);
-        ++start_[cell_of_[row] + 1];
+    std::array<std::size_t, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cells.number[a] < cells.number[b]; });
+    std::size_t count = 1;
+    for (auto const d : order) {
+        cells.stride[d] = count;
+        count *= static_cast<std::size_t>(cells.number[d]);
     }
-    for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
+    cells.start.assign(count + 1, 0);
+    cell_of_.resize(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        auto const at = cells.at(unsorted_[rows[k]]);
+        cell_of_[k] = static_cast<std::uint32_t>(cells.index(at[0], at[1], at[2]));
+        ++cells.start[cell_of_[k] + 1];
+    }
+    for (std::size_t c = 0; c < count; ++c) cells.start[c + 1] += cells.start[c];
+    std::vector<std::uint32_t> next(cells.start.begin(), cells.start.end() - 1);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        auto const to = cells.begin + next[cell_of_[k]]++;
+        rows_[to] = rows[k];
+        places_[to] = unsorted_[rows[k]];
+    }
+}
+
+void NeighbourSearch::place(Frame const& frame, Domain const& domain, Vec3 const& centre)
+{
+    std::size_t const rows = frame.rows();
+    unsorted_.resize(rows);
+    places_.resize(rows);
     rows_.resize(rows);
-    for (std::size_t row = rows; row-- > 0;) rows_[--start_[cell_of_[row] + 1]] = static_cast<std::uint32_t>(row);
-    // The loop above moved every start to its cell's first entry, one place too far to the right.
-    std::rotate(start_.begin(), start_.begin() + 1, start_.end());
-    start_.back() = static_cast<std::uint32_t>(rows);
+    Vec3 const whole = domain.size();
+    for (std::size_t row = 0; row < rows; ++row) {
+        auto const& body = frame.bodies[row];
+        std::array<double, 3> x{body.position[0], body.position[1], body.position[2]};
+        for (std::size_t d = 0; d < 3; ++d)
+            if (domain.periodic[d]) x[d] = nearest_image(x[d], centre[d], whole[d]);
+        unsorted_[row] = {x[0], x[1], x[2], body.radius};
+    }
 }
 
-std::vector<std::uint32_t> NeighbourSearch::sorted_rows(particle::Store const& granules, double reach)
+void NeighbourSearch::classify(Domain const& domain, double skin)
 {
-    fill_cells(granules, granules.owned, reach);
-    return rows_;
+    std::size_t const rows = unsorted_.size();
+    double largest = 0, smallest = std::numeric_limits<double>::max();
+    for (auto const& at : unsorted_) {
+        largest = std::max(largest, at.radius);
+        smallest = std::min(smallest, at.radius);
+    }
+    constexpr std::size_t most = 12;
+    std::size_t count = 1;
+    while (count < most && smallest < largest * std::pow(0.5, static_cast<double>(count))) ++count;
+    members_.resize(count);
+    for (auto& members : members_) members.clear();
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::size_t level = 0;
+        if (count > 1) level = std::min(count - 1, static_cast<std::size_t>(std::log2(largest / unsorted_[row].radius)));
+        members_[level].push_back(static_cast<std::uint32_t>(row));
+    }
+    classes_.resize(count);
+    std::size_t begin = 0;
+    for (std::size_t level = 0; level < count; ++level) {
+        classes_[level].begin = begin;
+        double const radius = largest * std::pow(0.5, static_cast<double>(level));
+        fill(classes_[level], domain, members_[level], 2 * radius + skin);
+        begin += members_[level].size();
+    }
 }
 
-void NeighbourSearch::pairs(particle::Store const& granules, double reach, double skin, std::vector<PairRows>& out)
+// The cells around `at` as spans of places; `half`: of each pair of cells only one sees the other, the own cell not at all.
+template <class Consider>
+void NeighbourSearch::visit(Cells const& cells, std::array<int, 3> const& at, bool half, Consider&& consider) const
 {
-    fill_cells(granules, granules.rows(), reach);
-    out.clear();
-    auto const& x = granules.position.values;
-    auto const& radius = granules.radius.values;
-    auto const& id = granules.id.values;
-    auto const consider = [&](std::uint32_t a, std::uint32_t b) {
-        if (a >= granules.owned && b >= granules.owned) return;
-        double const limit = radius[a] + radius[b] + skin;
-        if (norm2(x[a] - x[b]) >= limit * limit || id[a] == id[b]) return;
-        out.push_back(id[a] < id[b] ? PairRows{a, b} : PairRows{b, a});
+    // The axis along which cells lie side by side in memory.
+    std::size_t const along = cells.stride[0] == 1 ? 0 : cells.stride[1] == 1 ? 1 : 2;
+    std::size_t const second = along == 0 ? 1 : 0, third = along == 2 ? 1 : 2;
+    auto const run = [&](std::array<int, 3> cell, int first, int last) {  // last is within
+        cell[along] = first;
+        auto const low = cells.index(cell[0], cell[1], cell[2]);
+        consider(Span{cells.start[low], cells.start[low + static_cast<std::size_t>(last - first) + 1]});
     };
-    // Half of the 26 neighbours, so that each pair of cells is visited from one side. Cells that follow each other
-    // along x hold consecutive entries of rows_: the next cell of the own row, and three cells of each of four other
-    // rows.
-    constexpr std::array<std::array<int, 2>, 4> half{{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-    auto const start_of = [&](int i, int j, int k) {
-        return start_[static_cast<std::size_t>((k * cells_[1] + j) * cells_[0] + i)];
+    int const n = cells.number[along], i = at[along];
+    auto const row_of_cells = [&](std::array<int, 3> const& cell) {
+        if (!cells.wraps[along] || (i > 0 && i + 1 < n)) {
+            run(cell, std::max(i - 1, 0), std::min(i + 1, n - 1));
+        } else if (n <= 3) {
+            run(cell, 0, n - 1);
+        } else if (i == 0) {
+            run(cell, 0, 1);
+            run(cell, n - 1, n - 1);
+        } else {
+            run(cell, 0, 0);
+            run(cell, n - 2, n - 1);
+        }
     };
-    for (int k = 0; k < cells_[2]; ++k)
-        for (int j = 0; j < cells_[1]; ++j)
-            for (int i = 0; i < cells_[0]; ++i) {
-                auto const begin = start_of(i, j, k), end = start_of(i + 1, j, k);
-                if (begin == end) continue;
-                int const first = std::max(i - 1, 0), behind = std::min(i + 2, cells_[0]);
-                std::array<std::array<std::uint32_t, 2>, 4> runs{};
-                for (std::size_t n = 0; n < 4; ++n) {
-                    int const j2 = j + half[n][0], k2 = k + half[n][1];
-                    if (j2 < 0 || j2 >= cells_[1] || k2 >= cells_[2]) continue;
-                    runs[n] = {start_of(first, j2, k2), start_of(behind, j2, k2)};
-                }
-                auto const own_end = start_of(behind, j, k);
-                for (auto p = begin; p < end; ++p) {
-                    for (auto q = p + 1; q < own_end; ++q) consider(rows_[p], rows_[q]);
-                    for (auto const& [low, high] : runs)
-                        for (auto q = low; q < high; ++q) consider(rows_[p], rows_[q]);
-                }
+    // Steps across, without meeting a cell twice where a periodic direction has few of them.
+    auto const steps = [&](std::size_t d) {
+        std::array<int, 3> out{-1, 0, 1};
+        std::size_t count = 3;
+        if (cells.wraps[d] && cells.number[d] == 2) out = {0, 1, 0}, count = 2;
+        if (cells.wraps[d] && cells.number[d] == 1) out = {0, 0, 0}, count = 1;
+        return std::pair{out, count};
+    };
+    auto const [steps2, count2] = steps(second);
+    auto const [steps3, count3] = steps(third);
+    for (std::size_t a = 0; a < count3; ++a)
+        for (std::size_t b = 0; b < count2; ++b) {
+            int const d3 = steps3[a], d2 = steps2[b];
+            if (half && (d3 < 0 || (d3 == 0 && d2 < 0))) continue;
+            auto cell = at;
+            bool inside = true;
+            for (auto const& [d, step] : {std::pair{second, d2}, std::pair{third, d3}}) {
+                cell[d] += step;
+                if (cell[d] >= 0 && cell[d] < cells.number[d]) continue;
+                inside = inside && cells.wraps[d];
+                cell[d] = cell[d] < 0 ? cells.number[d] - 1 : 0;
             }
+            if (!inside) continue;
+            if (!half || d3 != 0 || d2 != 0) {
+                row_of_cells(cell);
+            } else if (i + 1 < n) {
+                run(cell, i + 1, i + 1);
+            } else if (cells.wraps[along] && n > 1) {
+                run(cell, 0, 0);
+            }
+        }
+}
+
+void NeighbourSearch::find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close,
+                           Candidates& out)
+{
+    place(frame, domain, centre);
+    classify(domain, skin);
+    out.near.clear();
+    out.far.clear();
+    out.near_begin.assign(frame.rows(), 0);
+    out.near_end.assign(frame.rows(), 0);
+    std::size_t const owned = frame.owned;
+    Vec3 const whole = domain.size();
+    bool const periodic = domain.any_periodic();
+    auto const* const id = frame.id.data();
+    for (std::size_t level = 0; level < classes_.size(); ++level) {
+        auto const& own = classes_[level];
+        // With fewer than three cells around a periodic direction a cell meets another from both sides.
+        bool half = true;
+        for (std::size_t d = 0; d < 3; ++d) half = half && !(own.wraps[d] && own.number[d] < 3);
+        std::size_t const end = own.begin + (own.start.empty() ? 0 : own.start.back());
+        std::array<int, 3> at{};
+        std::vector<Span> spans;
+        std::size_t cell_seen = std::numeric_limits<std::size_t>::max();
+        for (std::size_t p = own.begin; p < end; ++p) {
+            auto const row = rows_[p];
+            Place const here = places_[p];
+            auto const mine = id[row];
+            bool const is_owned = row < owned;
+            out.near_begin[row] = static_cast<std::uint32_t>(out.near.size());
+            auto const consider = [&](std::size_t q) {
+                Place const& there = places_[q];
+                double dx = here.x - there.x, dy = here.y - there.y, dz = here.z - there.z;
+                if (periodic) {
+                    if (domain.periodic[0]) dx = shortest(dx, whole.x);
+                    if (domain.periodic[1]) dy = shortest(dy, whole.y);
+                    if (domain.periodic[2]) dz = shortest(dz, whole.z);
+                }
+                double const limit = here.radius + there.radius + skin, distance2 = dx * dx + dy * dy + dz * dz;
+                if (distance2 >= limit * limit) return;
+                auto const other = rows_[q];
+                if (!is_owned && other >= owned) return;
+                double const nearly = here.radius + there.radius + close;
+                auto& list = distance2 < nearly * nearly ? out.near : out.far;
+                list.push_back(mine < id[other] ? PairRows{row, other} : PairRows{other, row});
+            };
+            at = own.at(here);
+            auto const cell = own.index(at[0], at[1], at[2]);
+            if (cell != cell_seen) {
+                cell_seen = cell;
+                spans.clear();
+                visit(own, at, half, [&](Span span) {
+                    if (span.begin < span.end) spans.push_back(span);
+                });
+            }
+            if (half)
+                for (std::size_t q = p + 1, last = own.begin + own.start[cell + 1]; q < last; ++q) consider(q);
+            for (auto const& span : spans)
+                for (std::size_t q = own.begin + span.begin; q < own.begin + span.end; ++q)
+                    if (half || q > p) consider(q);
+            for (std::size_t coarse = 0; coarse < level; ++coarse) {
+                auto const& others = classes_[coarse];
+                if (others.start.back() == 0) continue;
+                visit(others, others.at(here), false, [&](Span span) {
+                    for (std::size_t q = others.begin + span.begin; q < others.begin + span.end; ++q) consider(q);
+                });
+            }
+            out.near_end[row] = static_cast<std::uint32_t>(out.near.size());
+        }
+    }
+}
+
+std::vector<std::uint32_t> NeighbourSearch::sorted_rows(Frame const& frame, Domain const& domain, Vec3 const& centre,
+                                                        double width)
+{
+    place(frame, domain, centre);
+    std::vector<std::uint32_t> all(frame.rows());
+    std::iota(all.begin(), all.end(), 0u);
+    Cells cells;
+    fill(cells, domain, all, width);
+    return rows_;
 }
 }

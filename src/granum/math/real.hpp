@@ -38,6 +38,11 @@ inline double abs(double x)
 {
     return std::fabs(x);
 }
+//! Whether the mask is set anywhere: for work that most often is not needed.
+inline bool any(bool mask)
+{
+    return mask;
+}
 //! a where the mask is set, b elsewhere.
 inline double select(bool mask, double a, double b)
 {

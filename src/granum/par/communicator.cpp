@@ -1,5 +1,7 @@
 #include "granum/par/communicator.hpp"
 
+#include <algorithm>
+
 namespace granum::par
 {
 namespace
@@ -62,6 +64,29 @@ std::vector<std::byte> Communicator::exchange(std::span<std::byte const> out, in
     MPI_Sendrecv(out.data(), static_cast<int>(mine), MPI_BYTE, to_rank, 2, in.data(), static_cast<int>(theirs),
                  MPI_BYTE, from_rank, 2, handle_, MPI_STATUS_IGNORE);
     return in;
+}
+
+std::vector<std::vector<std::byte>> Communicator::deliver(std::vector<std::vector<std::byte>> const& to_each) const
+{
+    auto const ranks = static_cast<std::size_t>(size_);
+    std::vector<long> sent(ranks), expected(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) sent[r] = static_cast<long>(to_each[r].size());
+    MPI_Alltoall(sent.data(), 1, MPI_LONG, expected.data(), 1, MPI_LONG, handle_);
+    std::vector<std::vector<std::byte>> from_each(ranks);
+    std::vector<MPI_Request> requests;
+    constexpr long most = 1L << 30;  // bytes in one message
+    for (std::size_t r = 0; r < ranks; ++r) {
+        from_each[r].resize(static_cast<std::size_t>(expected[r]));
+        for (long at = 0; at < expected[r]; at += most)
+            MPI_Irecv(from_each[r].data() + at, static_cast<int>(std::min(most, expected[r] - at)), MPI_BYTE,
+                      static_cast<int>(r), 7, handle_, &requests.emplace_back());
+    }
+    for (std::size_t r = 0; r < ranks; ++r)
+        for (long at = 0; at < sent[r]; at += most)
+            MPI_Isend(to_each[r].data() + at, static_cast<int>(std::min(most, sent[r] - at)), MPI_BYTE,
+                      static_cast<int>(r), 7, handle_, &requests.emplace_back());
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return from_each;
 }
 
 std::vector<std::byte> Communicator::gather(std::span<std::byte const> mine) const

@@ -31,6 +31,9 @@ class Communicator
     //! Sends `out` to rank `to` while receiving from rank `from`; either may be -1 for nobody. Any length.
     std::vector<std::byte> exchange(std::span<std::byte const> out, int to, int from) const;
 
+    //! Sends to_each[r] to rank r and returns what each rank sent here. Collective.
+    std::vector<std::vector<std::byte>> deliver(std::vector<std::vector<std::byte>> const& to_each) const;
+
     //! The bytes of every rank one after the other, on rank 0 (empty elsewhere).
     std::vector<std::byte> gather(std::span<std::byte const> mine) const;
 

@@ -98,7 +98,7 @@ struct Store
     Column<double> mass{{"mass", "kg", true, true}};     //!< of the parcel: core, layer and liquid
     Column<std::uint32_t> material{{"material", "1", true, true}};
 
-    Column<Vec3> force{{"force", "N"}};  //!< contacts and gravity, not the gas
+    Column<Vec3> force{{"force", "N"}};  //!< of contacts
     Column<Vec3> torque{{"torque", "N m"}};
 
     // What the gas does to the parcel during a coupling interval (set by `coupling`, read by `dem`).

@@ -31,7 +31,9 @@ auto just_touched(Approach<Real> const& at)
 template <class Real>
 Real damped_overlap(Approach<Real> const& at)
 {
-    return select(just_touched(at), mul_add(Real(-0.5) * at.speed, at.step, at.overlap), at.overlap);
+    auto const first = just_touched(at);
+    if (!any(first)) return at.overlap;
+    return select(first, mul_add(Real(-0.5) * at.speed, at.step, at.overlap), at.overlap);
 }
 
 //! Force (N) of a spring that pushes with `elastic` and a dashpot of `coefficient` (N s/m, at `damped_overlap`), which
@@ -45,10 +47,13 @@ template <class Real>
 Real spring_and_dashpot(Approach<Real> const& at, Real elastic, Real coefficient, double power, Attraction attraction)
 {
     auto const first = just_touched(at);
-    Real const later = Real(0.5) * at.step * reciprocal(at.mass);
-    Real const damping = lagged(coefficient, select(first, Real(0.75) * later, later));
-    Real const closing =
-        select(first, damped_overlap(at) * reciprocal(max(Real(power) * at.step, Real(tiny))), -at.speed);
+    Real later = Real(0.5) * at.step * at.inverse_mass;
+    Real closing = -at.speed;
+    if (any(first)) {
+        later = select(first, Real(0.75) * later, later);
+        closing = select(first, damped_overlap(at) * reciprocal(max(Real(power) * at.step, Real(tiny))), closing);
+    }
+    Real const damping = lagged(coefficient, later);
     Real const force = mul_add(damping, closing, elastic);
     return attraction == Attraction::cut ? max(force, Real(0)) : force;
 }

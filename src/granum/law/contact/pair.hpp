@@ -9,6 +9,7 @@
 namespace granum::law::contact
 {
 using math::abs;
+using math::any;
 using math::max;
 using math::min;
 using math::mul_add;
@@ -52,6 +53,7 @@ struct Approach
     Real overlap;  //!< m, >= 0
     Real radius;   //!< R* = R_i R_j / (R_i + R_j), m
     Real mass;     //!< m* = m_i m_j / (m_i + m_j), kg
+    Real inverse_mass = reciprocal(mass);  //!< 1/kg
     Real inertia;  //!< I_i I_j / (I_i + I_j) with I = 1.4 m R^2 about the contact point, kg m2
     Real speed;    //!< relative velocity along the normal in the middle of the last step, positive when they part, m/s
     Real step;     //!< length of the last step, s; 0: forces only, histories stay
@@ -92,9 +94,9 @@ template <class Real>
 Triple<Real> turned_into_plane(Triple<Real> const& history, Triple<Real> const& n)
 {
     Triple<Real> const flat = mul_add(-dot(history, n), n, history);
-    Real const flat2 = norm2(flat);
-    Real const scale = sqrt(norm2(history) * reciprocal(max(flat2, Real(tiny))));
-    return select(flat2 > Real(tiny), scale, Real(0)) * flat;
+    Real const flat2 = norm2(flat), whole2 = norm2(history), product = flat2 * whole2;
+    Real const scale = whole2 * reciprocal_sqrt(max(product, Real(tiny)));
+    return select(product > Real(tiny), scale, Real(0)) * flat;
 }
 
 //! The factor that brings a vector of squared length `size2` down to `limit` where it is longer, 1 elsewhere.

@@ -35,7 +35,7 @@ struct Mindlin
                                      Real& stiffness_before) const
     {
         Real const stiffness = normal.tangential_stiffness;
-        Real const later = Real(half_step_of_surface) * at.step * reciprocal(at.mass);
+        Real const later = Real(half_step_of_surface) * at.step * at.inverse_mass;
         Real const viscous = lagged(Real(2) * pair.tangential_damping * sqrt(stiffness * at.mass), later);
         Triple<Real> const before = turned_into_plane(Triple<Real>{slip[0], slip[1], slip[2]}, n);
         Triple<Real> const after = mul_add(at.step, velocity, before);

@@ -1,0 +1,59 @@
+// What the granule engine keeps; private to its sources.
+#pragma once
+
+#include "granum/dem/engine.hpp"
+#include "granum/dem/wall_list.hpp"
+
+#include <unordered_map>
+
+namespace granum::dem
+{
+struct Engine::Inside
+{
+    Settings settings;
+    Domain domain;
+    par::Communicator comm;
+    Halo halo;
+    kernel::Kernel const* kernel;
+    std::vector<law::contact::Pair<double>> pairings;
+    kernel::Rules rules;
+
+    Frame frame;
+    NeighbourSearch search;
+    Candidates candidates;
+    PairList pairs;
+    WallList walls;
+    std::vector<particle::Attachment*> attachments;
+    Watch watch;
+    base::Stopwatch stopwatch;
+
+    double skin = 0;      // of the present list, m
+    double growth = 0;    // largest growth of a radius since the list was made, m
+    double travelled = 0;  // no granule went farther since the list was made, m
+    std::vector<Vec3> built_at;  // positions when the list was made
+    std::vector<double> built_radius;
+    long steps = 0, built_step = 0;
+    long unsorted_rebuilds = 0, unbalanced_rebuilds = 0;
+    std::string failure;  // seen on this rank, not yet told to the others
+
+    Inside(Settings given, par::Partition partition, par::Communicator const& communicator);
+
+    // rebuild.cpp
+    void rebuild(particle::Store& granules, std::span<ContactRecord const> saved = {});
+    double next_skin(double mean_radius, double largest) const;
+    bool strayed() const;
+    void balance(particle::Store& granules);
+    std::vector<ContactRecord> contacts_of(std::vector<std::uint32_t> const& rows,
+                                           std::span<ContactRecord const> saved) const;
+
+    // engine.cpp
+    void agree_on_failure();
+    void find_non_finite();
+    void name_overlap();
+    void forces(double dt);
+    void kick_with_gas(particle::Store& granules, double half);
+    bool outgrown(double moved);
+    double farthest() const;
+    void hold_frozen(particle::Store& granules, double dt) const;
+};
+}

@@ -1,0 +1,96 @@
+#include "granum/dem/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::dem
+{
+namespace
+{
+void set(double* to, Vec3 const& from)
+{
+    to[0] = from.x, to[1] = from.y, to[2] = from.z;
+}
+
+void take_row(kernel::Body& body, particle::Store const& granules, std::size_t row, double unit_force, int power)
+{
+    double const radius = granules.radius[row];
+    set(body.position, granules.position[row]);
+    set(body.velocity, granules.velocity[row]);
+    set(body.spin, granules.spin[row]);
+    body.radius = radius;
+    body.inverse_mass = 1 / granules.mass[row];
+    // A quantum of 2^-42 of the reference force: sums are exact up to 2048 times that force, an overlap of a sixth of
+    // the radius, and what is rounded away is a tenth of a millionth of a millionth of it.
+    double const reference = 2 * kernel::power_of_two_below(unit_force * (power == 2 ? radius * radius : radius));
+    body.rounder = 1.5 * 0x1p52 * (0x1p-42 * reference);
+}
+}
+
+void Frame::resize(std::size_t rows)
+{
+    bodies.resize(rows + 2);
+    sums.resize(rows + 2);
+    material.resize(rows + 2);
+    id.resize(rows);
+    for (std::size_t k = rows; k < rows + 2; ++k) {
+        bodies[k] = {};
+        bodies[k].position[0] = k == rows ? 1e30 : -1e30;
+        bodies[k].radius = bodies[k].inverse_mass = bodies[k].rounder = 1;
+        sums[k] = {};
+        material[k] = 0;
+    }
+}
+
+void Frame::take(particle::Store const& granules)
+{
+    owned = granules.owned;
+    resize(owned);
+    refresh(granules);
+    for (std::size_t row = 0; row < owned; ++row) {
+        id[row] = granules.id[row];
+        material[row] = static_cast<std::uint8_t>(granules.material[row]);
+        sums[row] = {};
+        set(sums[row].force, granules.force[row]);
+        set(sums[row].torque, granules.torque[row]);
+    }
+}
+
+void Frame::refresh(particle::Store const& granules)
+{
+    for (std::size_t row = 0; row < owned; ++row) take_row(bodies[row], granules, row, unit_force, unit_power);
+}
+
+void Frame::give(particle::Store& granules) const
+{
+    for (std::size_t row = 0; row < owned; ++row) {
+        granules.position[row] = vec(bodies[row].position);
+        granules.velocity[row] = vec(bodies[row].velocity);
+        granules.spin[row] = vec(bodies[row].spin);
+        granules.force[row] = vec(sums[row].force);
+        granules.torque[row] = vec(sums[row].torque);
+    }
+}
+
+void Frame::scale_to(Laws const& laws)
+{
+    // Hertz's force at a given relative overlap grows with the square of the radius, that of a linear spring with it.
+    auto const largest = [&laws](double radius) {
+        double out = 0;
+        for (std::uint32_t a = 0; a < laws.materials.size(); ++a)
+            for (std::uint32_t b = a; b < laws.materials.size(); ++b)
+                std::visit(
+                    [&](auto const& normal) {
+                        law::contact::Approach<double> const at{
+                            .overlap = 1e-3 * radius, .radius = radius, .mass = 1, .inertia = 1, .speed = 0, .step = 0};
+                        out = std::max(out, normal(laws.effective(a, b), at).elastic);
+                    },
+                    laws.normal);
+        return out;
+    };
+    double const one = largest(1);
+    if (!(one > 0)) return;
+    unit_force = one;
+    unit_power = largest(2) > 3 * one ? 2 : 1;
+}
+}

@@ -1,0 +1,58 @@
+// The granules of a rank as the kernels want them, beside the store: what a contact asks for in one row of memory.
+#pragma once
+
+#include "granum/base/aligned.hpp"
+#include "granum/dem/contact_laws.hpp"
+#include "granum/dem/kernel/kernel.hpp"
+#include "granum/particle/store.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace granum::dem
+{
+using math::Vec3;
+using particle::Id;
+
+//! The box that granules live in.
+struct Domain
+{
+    Vec3 lower, upper;  //!< m
+    std::array<bool, 3> periodic{};
+
+    Vec3 size() const { return upper - lower; }
+    bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+};
+
+//! Rows as in the store: owned granules, then those that others own. Two rows more, behind the last, meet nobody.
+struct Frame
+{
+    base::AlignedVector<kernel::Body> bodies;
+    base::AlignedVector<kernel::Sum> sums;
+    std::vector<std::uint8_t> material;
+    std::vector<Id> id;
+    std::size_t owned = 0;
+    double unit_force = 1;  //!< force at an overlap of a thousandth of the radius over the radius^unit_power
+    int unit_power = 2;
+
+    std::size_t rows() const { return id.size(); }
+    std::uint32_t lonely() const { return static_cast<std::uint32_t>(rows()); }
+
+    //! Takes rows [0, owned) as the store has them, with their forces and torques. Drops what lies behind.
+    void take(particle::Store const& granules);
+    //! Takes motion, radius and mass of owned rows, which stay where they are.
+    void refresh(particle::Store const& granules);
+    //! Gives motion, forces and torques of owned rows to the store.
+    void give(particle::Store& granules) const;
+    //! Makes room for rows behind the owned ones, up to `rows` in all, and closes the end.
+    void resize(std::size_t rows);
+
+    static Vec3 vec(double const* from) { return {from[0], from[1], from[2]}; }
+    Vec3 position(std::size_t row) const { return vec(bodies[row].position); }
+    double radius(std::size_t row) const { return bodies[row].radius; }
+
+    //! Finds the unit of force from the stiffest pairing of the laws.
+    void scale_to(Laws const& laws);
+};
+}

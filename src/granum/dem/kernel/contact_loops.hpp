@@ -1,0 +1,436 @@
+// The vectorised loops over contacts and granules. Included by one source per instruction set, see lanes.hpp.
+#include "granum/dem/kernel/kernel.hpp"
+#include "granum/dem/kernel/lanes.hpp"
+
+#include <array>
+
+namespace granum::dem::GRANUM_KERNEL
+{
+namespace
+{
+using namespace kernel;
+using law::contact::Approach;
+using law::contact::Pair;
+using math::Triple;
+
+struct Partner
+{
+    Triple<Lanes> position, velocity, spin;
+    Lanes radius, inverse_mass, rounder;
+    std::uint32_t const* rows;
+    Addresses body;
+
+    HWY_INLINE Partner(Body const* bodies, std::uint32_t const* which)
+        : rows(which), body(const_cast<double*>(bodies->position), sizeof(Body), which)
+    {
+        Lanes quad[4];
+        gather_quads(body, 0, quad);
+        position = {quad[0], quad[1], quad[2]}, radius = quad[3];
+    }
+    HWY_INLINE void look()
+    {
+        Lanes quad[4];
+        gather_quads(body, 4, quad);
+        velocity = {quad[0], quad[1], quad[2]}, inverse_mass = quad[3];
+        gather_quads(body, 8, quad);
+        spin = {quad[0], quad[1], quad[2]}, rounder = quad[3];
+    }
+    // Adds to the sums of these rows, in multiples of their quanta.
+    HWY_INLINE void give(Sum* sums, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
+    {
+        auto const rounded = [](Triple<Lanes> const& a, Lanes by) {
+            return Triple<Lanes>{(a.x + by) - by, (a.y + by) - by, (a.z + by) - by};
+        };
+        add_pulls(Addresses(sums->force, sizeof(Sum), rows), rounded(force, rounder),
+                  rounded(torque, rounder * power_of_two_below(radius)));
+    }
+};
+
+// Of a sphere about a point of its surface.
+HWY_INLINE Lanes inverse_inertia(Partner const& granule)
+{
+    return granule.inverse_mass * reciprocal(Lanes(1.4) * granule.radius * granule.radius);
+}
+
+HWY_INLINE Triple<Lanes> kept(Mask m, Triple<Lanes> const& a)
+{
+    Lanes const zero = 0.0;
+    return {select(m, a.x, zero), select(m, a.y, zero), select(m, a.z, zero)};
+}
+
+// What the laws need about each lane's pairing of materials.
+class Pairings
+{
+  public:
+    HWY_INLINE explicit Pairings(Rules const& rules, std::uint8_t const* material) : rules_(rules), material_(material)
+    {
+        std::size_t const all[width] = {};
+        common_ = mix(all);
+    }
+    HWY_INLINE Pair<Lanes> const& operator()(std::uint32_t const* low, std::uint32_t const* high)
+    {
+        if (material_ == nullptr) return common_;
+        std::size_t which[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+            which[lane] = material_[low[lane]] * rules_.materials + material_[high[lane]];
+        return mix(which);
+    }
+    HWY_INLINE Pair<Lanes> const& with_walls(std::uint32_t const* rows, std::uint8_t const* walls)
+    {
+        std::size_t which[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+            which[lane] = (material_ ? material_[rows[lane]] : 0) * rules_.materials + walls[lane];
+        return mix(which);
+    }
+
+  private:
+    HWY_INLINE Pair<Lanes> const& mix(std::size_t const* which)
+    {
+        static_assert(sizeof(Pair<double>) == Pair<double>::size * sizeof(double));
+        alignas(64) double values[width];
+        std::size_t at = 0;
+        mixed_.visit([&](Lanes& member) {
+            for (std::size_t lane = 0; lane < width; ++lane)
+                values[lane] = reinterpret_cast<double const*>(rules_.pairs + which[lane])[at];
+            member = load(values);
+            ++at;
+        });
+        return mixed_;
+    }
+    Rules const& rules_;
+    std::uint8_t const* material_;
+    Pair<Lanes> common_, mixed_;
+};
+
+// One, or one half where another rank owns a partner and counts the other.
+HWY_INLINE Lanes shares(std::uint32_t const* low, std::uint32_t const* high, std::size_t owned)
+{
+    alignas(64) double share[width];
+    for (std::size_t lane = 0; lane < width; ++lane) share[lane] = low[lane] < owned && high[lane] < owned ? 1.0 : 0.5;
+    return load(share);
+}
+
+// One contact per lane: the laws, one after the other.
+template <class Normal, class Tangential, class Rolling>
+struct Contact
+{
+    static constexpr int columns = Tangential::history + Rolling::history;
+    Normal const& normal_law;
+    Tangential const& tangential_law;
+    Rolling const& rolling_law;
+
+    Triple<Lanes> force, tangential, rolling;
+    Lanes dissipated, elastic;
+
+    template <bool Ledger>
+    HWY_INLINE void evaluate(Pair<Lanes> const& pair, Approach<Lanes> const& at, Triple<Lanes> const& n,
+                             Triple<Lanes> const& velocity, Triple<Lanes> const& spin, Lanes* history)
+    {
+        Lanes stiffness = 0.0, stored = 0.0;
+        if constexpr (Ledger) stiffness = history[columns];
+        auto const normal = normal_law(pair, at);
+        auto const slide =
+            tangential_law(pair, at, normal, n, velocity - at.speed * n, history, stored, stiffness);
+        auto const roll = rolling_law(pair, at, normal, n, spin, history + Tangential::history);
+        tangential = slide.force;
+        rolling = roll.torque;
+        force = normal.force * n + slide.force;
+        if constexpr (Ledger) {
+            // The speed at the end of the step, where the force is: half a step more of this contact's acceleration.
+            Lanes const speed = at.speed + Lanes(0.5) * at.step * normal.force / at.mass;
+            stored += roll.energy;
+            dissipated = (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work +
+                         history[columns + 1] - stored;
+            elastic = normal.energy + stored;
+            history[columns] = stiffness, history[columns + 1] = stored;
+        }
+    }
+};
+
+template <class Normal, class Tangential, class Rolling, bool Ledger>
+HWY_FLATTEN void pair_pass(PairPass const& in, Seen& seen)
+{
+    Rules const& rules = *in.rules;
+    using Laws = Contact<Normal, Tangential, Rolling>;
+    constexpr std::size_t columns = Laws::columns + (Ledger ? 2 : 0);
+    Laws laws{*static_cast<Normal const*>(rules.normal), *static_cast<Tangential const*>(rules.tangential),
+              *static_cast<Rolling const*>(rules.rolling)};
+    Lanes const dt = in.dt;
+    Pairings pairings(rules, in.material);
+    Lanes const zero = 0.0, shift = rules.lever_shift;
+    Lanes worst = seen.largest_overlap, dissipated = 0.0, elastic = 0.0;
+    long contacts = 0;
+    for (std::size_t b = 0; b < in.blocks; ++b) {
+        unsigned const before = in.touching[b];
+        unsigned now = 0;
+        for (std::size_t s = 0; s < block; s += width) {
+            auto const* rows_low = in.pairs[b].low + s;
+            auto const* rows_high = in.pairs[b].high + s;
+            double* const kept_history = in.history + b * columns * block + s;
+            Partner low(in.bodies, rows_low), high(in.bodies, rows_high);
+            Triple<Lanes> apart = low.position - high.position;
+            if (in.image != nullptr) {
+                alignas(64) double by[3][block];
+                for (std::size_t lane = 0; lane < width; ++lane)
+                    for (std::size_t d = 0; d < 3; ++d) by[d][lane] = in.shifts[in.image[b * block + s + lane]][d];
+                apart = apart + Triple<Lanes>{load(by[0]), load(by[1]), load(by[2])};
+            }
+            Lanes const distance2 = norm2(apart), reach = low.radius + high.radius;
+            Mask const touch = distance2 < reach * reach;
+            unsigned const bits = touch.bits();
+            if (bits == 0) {
+                if (((before >> s) & ((1u << width) - 1)) != 0) {
+                    if constexpr (Ledger) {
+                        Lanes const share = shares(rows_low, rows_high, in.owned);
+                        dissipated += share * load(kept_history + (columns - 1) * block);
+                    }
+                    for (std::size_t c = 0; c < columns; ++c) store(zero, kept_history + c * block);
+                }
+                continue;
+            }
+            now |= bits << s;
+            contacts += __builtin_popcount(bits);
+            low.look();
+            high.look();
+            Lanes history[columns];
+            for (std::size_t c = 0; c < columns; ++c) history[c] = load(kept_history + c * block);
+            if constexpr (Ledger) {
+                Lanes const share = shares(rows_low, rows_high, in.owned);
+                dissipated += select(touch, zero, share * history[columns - 1]);
+            }
+
+            Lanes const inverse = reciprocal_sqrt(distance2);
+            Triple<Lanes> const n = inverse * apart;
+            Lanes const smaller = min(low.radius, high.radius);
+            // Lanes that do not touch compute something harmless and are dropped.
+            Lanes const overlap = select(touch, reach - distance2 * inverse, Lanes(1e-3) * smaller);
+            Mask const worse = touch & (overlap > worst * smaller);
+            if (!worse.none()) worst = select(worse, overlap / smaller, worst);
+            Lanes const lever_low = low.radius - shift * overlap, lever_high = high.radius - shift * overlap;
+            Triple<Lanes> const velocity =
+                low.velocity - high.velocity - cross(lever_low * low.spin + lever_high * high.spin, n);
+            // 1/(a b) gives both quotients with one division.
+            Lanes const inverse_mass = low.inverse_mass + high.inverse_mass;
+            Lanes const inverse_both = reciprocal(reach * inverse_mass);
+            Approach<Lanes> const at{.overlap = overlap,
+                                     .radius = low.radius * high.radius * (inverse_both * inverse_mass),
+                                     .mass = inverse_both * reach,
+                                     .inverse_mass = inverse_mass,
+                                     .inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high)),
+                                     .speed = dot(velocity, n),
+                                     .step = dt};
+            laws.template evaluate<Ledger>(pairings(rows_low, rows_high), at, n, velocity, low.spin - high.spin, history);
+            for (std::size_t c = 0; c < columns; ++c) store(select(touch, history[c], zero), kept_history + c * block);
+
+            Triple<Lanes> const force = kept(touch, laws.force), rolling = kept(touch, laws.rolling);
+            Triple<Lanes> const turn = kept(touch, cross(n, laws.tangential));
+            low.give(in.sums, force, rolling - lever_low * turn);
+            high.give(in.sums, -force, -rolling - lever_high * turn);
+            if constexpr (Ledger) {
+                Lanes const share = select(touch, shares(rows_low, rows_high, in.owned), zero);
+                dissipated += select(touch, share * laws.dissipated, zero);
+                elastic += select(touch, share * laws.elastic, zero);
+            }
+        }
+        in.touching[b] = static_cast<std::uint8_t>(now);
+    }
+    alignas(64) double each[block];
+    store(worst, each);
+    for (std::size_t lane = 0; lane < width; ++lane)
+        if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
+    seen.contacts += contacts;
+    if constexpr (Ledger) seen.dissipated += sum(dissipated), seen.elastic += sum(elastic);
+}
+
+template <class Normal, class Tangential, class Rolling, bool Ledger>
+HWY_FLATTEN void wall_pass(WallPass const& in, Seen& seen)
+{
+    Rules const& rules = *in.rules;
+    using Laws = Contact<Normal, Tangential, Rolling>;
+    constexpr std::size_t columns = Laws::columns + (Ledger ? 2 : 0);
+    Laws laws{*static_cast<Normal const*>(rules.normal), *static_cast<Tangential const*>(rules.tangential),
+              *static_cast<Rolling const*>(rules.rolling)};
+    Lanes const dt = in.dt;
+    Pairings pairings(rules, in.material);
+    Lanes const zero = 0.0, shift = rules.lever_shift;
+    Lanes worst = seen.largest_overlap, dissipated = 0.0, elastic = 0.0;
+    long contacts = 0;
+    auto const triple = [](double const* const* from, std::size_t place) {
+        return Triple<Lanes>{load(from[0] + place), load(from[1] + place), load(from[2] + place)};
+    };
+    for (std::size_t b = 0; b < in.blocks; ++b) {
+        unsigned const before = in.touching[b];
+        unsigned now = 0;
+        for (std::size_t s = 0; s < block; s += width) {
+            std::size_t const place = b * block + s;
+            double* const kept_history = in.history + b * columns * block + s;
+            Lanes overlap = load(in.overlap + place);
+            Mask const touch = overlap > zero;
+            unsigned const bits = touch.bits();
+            if (bits == 0) {
+                for (std::size_t d = 0; d < 3; ++d) store(zero, in.force[d] + place), store(zero, in.torque[d] + place);
+                if (((before >> s) & ((1u << width) - 1)) != 0) {
+                    if constexpr (Ledger) dissipated += load(kept_history + (columns - 1) * block);
+                    for (std::size_t c = 0; c < columns; ++c) store(zero, kept_history + c * block);
+                }
+                continue;
+            }
+            now |= bits << s;
+            contacts += __builtin_popcount(bits);
+            Partner granule(in.bodies, in.row + place);
+            granule.look();
+            Lanes history[columns];
+            for (std::size_t c = 0; c < columns; ++c) history[c] = load(kept_history + c * block);
+            if constexpr (Ledger) dissipated += select(touch, zero, history[columns - 1]);
+
+            Triple<Lanes> const n = triple(in.normal, place);
+            overlap = select(touch, overlap, Lanes(1e-3) * granule.radius);
+            Mask const worse = touch & (overlap > worst * granule.radius);
+            if (!worse.none()) worst = select(worse, overlap / granule.radius, worst);
+            Lanes const lever = granule.radius - shift * overlap;
+            Triple<Lanes> const velocity =
+                granule.velocity - triple(in.velocity, place) - lever * cross(granule.spin, n);
+            Approach<Lanes> const at{.overlap = overlap,
+                                     .radius = granule.radius,
+                                     .mass = reciprocal(granule.inverse_mass),
+                                     .inverse_mass = granule.inverse_mass,
+                                     .inertia = reciprocal(inverse_inertia(granule)),
+                                     .speed = dot(velocity, n),
+                                     .step = dt};
+            laws.template evaluate<Ledger>(pairings.with_walls(in.row + place, in.wall_material + place), at, n, velocity,
+                                           granule.spin - triple(in.spin, place), history);
+            for (std::size_t c = 0; c < columns; ++c) store(select(touch, history[c], zero), kept_history + c * block);
+
+            Triple<Lanes> const force = kept(touch, laws.force);
+            Triple<Lanes> const torque = kept(touch, laws.rolling - lever * cross(n, laws.tangential));
+            granule.give(in.sums, force, torque);
+            store(force.x, in.force[0] + place), store(force.y, in.force[1] + place), store(force.z, in.force[2] + place);
+            store(torque.x, in.torque[0] + place), store(torque.y, in.torque[1] + place),
+                store(torque.z, in.torque[2] + place);
+            if constexpr (Ledger) {
+                dissipated += select(touch, laws.dissipated, zero);
+                elastic += select(touch, laws.elastic, zero);
+            }
+        }
+        in.touching[b] = static_cast<std::uint8_t>(now);
+    }
+    alignas(64) double each[block];
+    store(worst, each);
+    for (std::size_t lane = 0; lane < width; ++lane)
+        if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
+    seen.contacts += contacts;
+    if constexpr (Ledger) seen.dissipated += sum(dissipated), seen.elastic += sum(elastic);
+}
+
+template <int Kicks, bool Drifts>
+HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
+{
+    // Four numbers at a time: the fourth of a velocity is the inverse mass, of a spin the rounder, of a position the
+    // radius, and what is added to them is zero.
+    hn::CappedTag<double, 4> const d;
+    std::size_t const lanes = hn::Lanes(d);
+    alignas(32) double const pull[4] = {in.gravity[0], in.gravity[1], in.gravity[2], 0};
+    alignas(32) double const drift[4] = {in.drift, in.drift, in.drift, 0};
+    auto const half = hn::Set(d, in.half), none = hn::Zero(d);
+    for (std::size_t c = 0; c < 4; c += lanes) {
+        auto const gravity = hn::Load(d, pull + c), along = hn::Load(d, drift + c);
+        auto fastest = none, odd = none;
+        for (std::size_t row = 0; row < in.rows; ++row) {
+            Body& body = in.bodies[row];
+            Sum& sum = in.sums[row];
+            auto const acceleration =
+                hn::MulAdd(hn::Load(d, sum.force + c), hn::Set(d, body.inverse_mass), gravity);
+            auto const turning = hn::Set(d, in.half * 2.5 * body.inverse_mass / (body.radius * body.radius));
+            auto velocity = hn::Load(d, body.velocity + c), spin = hn::Load(d, body.spin + c);
+            auto const torque = hn::Load(d, sum.torque + c);
+            for (int kick = 0; kick < Kicks; ++kick) {
+                velocity = hn::MulAdd(half, acceleration, velocity);
+                spin = hn::MulAdd(turning, torque, spin);
+            }
+            hn::Store(spin, d, body.spin + c);
+            if constexpr (Drifts) {
+                hn::Store(hn::MulAdd(along, velocity, hn::Load(d, body.position + c)), d, body.position + c);
+                auto const square = hn::Mul(velocity, velocity);
+                fastest = hn::Max(fastest, square);
+                odd = hn::MulAdd(hn::Add(square, spin), none, odd);  // zero as long as all is finite
+            }
+            hn::Store(velocity, d, body.velocity + c);
+            if (in.clear) hn::Store(none, d, sum.force + c), hn::Store(none, d, sum.torque + c);
+        }
+        if constexpr (Drifts) {
+            alignas(32) double each[4], miss[4];
+            hn::Store(fastest, d, each), hn::Store(odd, d, miss);
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                if (c + lane < 3) seen.fastest2 += each[lane];
+                seen.finite = seen.finite && miss[lane] == 0;
+            }
+        }
+    }
+}
+
+void move(Motion const& in, MotionSeen& seen)
+{
+    if (in.kicks == 0)
+        move_rows<0, true>(in, seen);
+    else if (in.kicks == 2)
+        move_rows<2, true>(in, seen);
+    else if (in.drift != 0)
+        move_rows<1, true>(in, seen);
+    else
+        move_rows<1, false>(in, seen);
+}
+
+// Every combination of laws, as a table of passes.
+using law::contact::NormalLaws;
+using law::contact::RollingLaws;
+using law::contact::TangentialLaws;
+
+template <class... Normal, class... Tangential, class... Rolling>
+constexpr auto every_pair_pass(base::TypeList<Normal...>, base::TypeList<Tangential...>, base::TypeList<Rolling...>)
+{
+    using Pass = void (*)(PairPass const&, Seen&);
+    std::array<Pass, 2 * sizeof...(Normal) * sizeof...(Tangential) * sizeof...(Rolling)> table{};
+    std::size_t at = 0;
+    auto const rolling = [&]<class N, class T>() {
+        ((table[at++] = pair_pass<N, T, Rolling, false>, table[at++] = pair_pass<N, T, Rolling, true>), ...);
+    };
+    auto const tangential = [&]<class N>() { (rolling.template operator()<N, Tangential>(), ...); };
+    (tangential.template operator()<Normal>(), ...);
+    return table;
+}
+
+template <class... Normal, class... Tangential, class... Rolling>
+constexpr auto every_wall_pass(base::TypeList<Normal...>, base::TypeList<Tangential...>, base::TypeList<Rolling...>)
+{
+    using Pass = void (*)(WallPass const&, Seen&);
+    std::array<Pass, 2 * sizeof...(Normal) * sizeof...(Tangential) * sizeof...(Rolling)> table{};
+    std::size_t at = 0;
+    auto const rolling = [&]<class N, class T>() {
+        ((table[at++] = wall_pass<N, T, Rolling, false>, table[at++] = wall_pass<N, T, Rolling, true>), ...);
+    };
+    auto const tangential = [&]<class N>() { (rolling.template operator()<N, Tangential>(), ...); };
+    (tangential.template operator()<Normal>(), ...);
+    return table;
+}
+
+constexpr auto pair_passes = every_pair_pass(NormalLaws{}, TangentialLaws{}, RollingLaws{});
+constexpr auto wall_passes = every_wall_pass(NormalLaws{}, TangentialLaws{}, RollingLaws{});
+
+std::size_t place_of(Rules const& rules)
+{
+    std::size_t const laws =
+        (rules.normal_index * TangentialLaws::size + rules.tangential_index) * RollingLaws::size + rules.rolling_index;
+    return 2 * laws + (rules.ledger ? 1 : 0);
+}
+
+void pairs(PairPass const& in, Seen& seen)
+{
+    pair_passes[place_of(*in.rules)](in, seen);
+}
+
+void walls(WallPass const& in, Seen& seen)
+{
+    wall_passes[place_of(*in.rules)](in, seen);
+}
+}
+}

@@ -1,0 +1,144 @@
+// The inner loops of the granule engine, compiled once for each instruction set and chosen when the program starts.
+//
+// What they work on is laid out for them, not for reading: one row of 96 bytes per granule with all that a contact asks
+// for, one row of 64 bytes that collects its forces, and blocks of eight contacts whose histories stand side by side.
+//
+// Sums do not depend on their order. Every contribution to a force is rounded to a multiple of the granule's quantum, a
+// power of two small enough not to matter and large enough that the sums have no rounding of their own: so neither the
+// order of the list, nor the number of ranks, nor the moment of a rebuild or a restart is seen in the bits of a result.
+#pragma once
+
+#include "granum/law/contact/all.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace granum::dem::kernel
+{
+//! A granule as contacts see it: m, m/s, 1/kg, rad/s. `rounder` is 1.5 * 2^52 times the quantum of its force, N: adding
+//! and subtracting it rounds to a multiple of the quantum.
+struct alignas(32) Body
+{
+    double position[3], radius;
+    double velocity[3], inverse_mass;
+    double spin[3], rounder;
+};
+
+//! Force (N) and torque (N m) of the contacts of a granule; the fourth numbers stay zero.
+struct alignas(64) Sum
+{
+    double force[4], torque[4];
+};
+
+inline constexpr std::size_t block = 8;  // contacts that share a block, whatever the width of a register
+
+//! Rows of the partners with the lower and with the higher id. An unfilled place holds two rows that never meet.
+struct alignas(64) PairBlock
+{
+    std::uint32_t low[block], high[block];
+};
+
+//! The laws of a pass: places in the three lists of law/contact, the laws themselves, and per pairing of materials what
+//! they need (law::contact::Pair, `pairings` squared of them).
+struct Rules
+{
+    std::size_t normal_index = 0, tangential_index = 0, rolling_index = 0;
+    void const *normal = nullptr, *tangential = nullptr, *rolling = nullptr;
+    law::contact::Pair<double> const* pairs = nullptr;
+    std::size_t materials = 1;
+    double lever_shift = 0.5;  //!< lever of the contact point: radius less this part of the overlap
+    bool ledger = false;       //!< account for energies: two more columns of history
+    std::size_t columns = 6;   //!< of history
+};
+
+//! What a pass saw. With a partner that another rank owns, each side counts one half of the energies.
+struct Seen
+{
+    double largest_overlap = 0;  //!< over the radius of the smaller partner
+    long contacts = 0;
+    double dissipated = 0, elastic = 0;  //!< J: in this step; stored now
+};
+
+struct PairPass
+{
+    Rules const* rules;
+    Body const* bodies;
+    std::uint8_t const* material;  //!< of each row; null where all are material 0
+    Sum* sums;
+    std::size_t blocks;
+    PairBlock const* pairs;
+    std::uint8_t const* image;  //!< per contact: which `shifts` to add to low - high; null where no domain is periodic
+    double const (*shifts)[3];
+    double* history;         //!< [blocks][columns][block]
+    std::uint8_t* touching;  //!< one bit per contact
+    std::size_t owned;       //!< rows from here on belong to other ranks
+    double dt;               //!< s; 0 leaves histories as they are
+};
+
+//! Contacts with walls, whose geometry was found before: everything per place, padded to whole blocks.
+struct WallPass
+{
+    Rules const* rules;
+    Body const* bodies;
+    std::uint8_t const* material;
+    Sum* sums;
+    std::size_t blocks;
+    std::uint32_t const* row;
+    std::uint8_t const* wall_material;
+    double const* overlap;       //!< m; not above zero: no touch
+    double const* normal[3];     //!< to the granule
+    double const* velocity[3];   //!< of the surface at the contact, m/s
+    double const* spin[3];       //!< of the wall, rad/s
+    double* history;
+    std::uint8_t* touching;
+    double dt;
+    double* force[3];   //!< on the granule, N
+    double* torque[3];  //!< on the granule about its centre, N m
+};
+
+//! A pass over the rows that moves them on: `kicks` half steps of velocity, then a drift of position.
+struct Motion
+{
+    Body* bodies;
+    Sum* sums;
+    std::size_t rows;
+    double gravity[3];
+    double half;   //!< s, of one kick
+    double drift;  //!< s
+    int kicks;     //!< 0, 1 or 2
+    bool clear;    //!< sets the sums to zero behind it
+};
+struct MotionSeen
+{
+    double fastest2 = 0;  //!< an upper bound of the squared speeds, m2/s2
+    bool finite = true;
+};
+
+struct Kernel
+{
+    std::string_view name;
+    void (*pairs)(PairPass const&, Seen&);
+    void (*walls)(WallPass const&, Seen&);
+    void (*move)(Motion const&, MotionSeen&);
+};
+
+//! Those that this processor can run, the fastest first; the last is the plain reference.
+std::span<Kernel const* const> kernels();
+//! The kernel called `name`, or null.
+Kernel const* find_kernel(std::string_view name);
+
+Kernel const& reference();
+Kernel const& scalar();
+Kernel const& sse4();
+Kernel const& avx2();
+Kernel const& avx512();
+
+//! The largest power of two not above x > 0.
+inline double power_of_two_below(double x)
+{
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7FF0000000000000u);
+}
+}

@@ -1,0 +1,11 @@
+#define GRANUM_KERNEL avx512_kernel
+#include "granum/dem/kernel/contact_loops.hpp"
+
+namespace granum::dem::kernel
+{
+Kernel const& avx512()
+{
+    static constexpr Kernel kernel{"avx512", avx512_kernel::pairs, avx512_kernel::walls, avx512_kernel::move};
+    return kernel;
+}
+}

@@ -1,0 +1,11 @@
+#define GRANUM_KERNEL sse4_kernel
+#include "granum/dem/kernel/contact_loops.hpp"
+
+namespace granum::dem::kernel
+{
+Kernel const& sse4()
+{
+    static constexpr Kernel kernel{"sse4", sse4_kernel::pairs, sse4_kernel::walls, sse4_kernel::move};
+    return kernel;
+}
+}

@@ -1,0 +1,237 @@
+// Several doubles in one register, with the arithmetic that contact laws are written in.
+//
+// Included only by the sources that are compiled once per instruction set (kernel_*.cpp): all that it makes lives in a
+// namespace that carries the name of the instruction set, so that nothing compiled for a newer processor can be linked
+// into code for an older one.
+#pragma once
+
+#ifndef HWY_COMPILE_ONLY_SCALAR
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+#include <hwy/highway.h>
+
+#include "granum/math/triple.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace granum::dem::GRANUM_KERNEL
+{
+namespace hn = hwy::HWY_NAMESPACE;
+using math::Triple;
+
+using Tag = hn::CappedTag<double, 8>;
+using Register = hn::Vec<Tag>;
+inline constexpr std::size_t width = hn::MaxLanes(Tag());
+
+struct Mask
+{
+    hn::Mask<Tag> m;
+    HWY_INLINE friend Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+    HWY_INLINE friend Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+    HWY_INLINE friend Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+    HWY_INLINE unsigned bits() const
+    {
+        alignas(8) std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(Tag(), m, bytes);
+        return bytes[0];
+    }
+    HWY_INLINE bool none() const { return hn::AllFalse(Tag(), m); }
+};
+
+struct Lanes
+{
+    Register v;
+
+    Lanes() = default;
+    HWY_INLINE Lanes(Register given) : v(given) {}
+    HWY_INLINE Lanes(double all) : v(hn::Set(Tag(), all)) {}
+
+    HWY_INLINE friend Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+    HWY_INLINE friend Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+    HWY_INLINE friend Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+    HWY_INLINE friend Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+    HWY_INLINE friend Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+    HWY_INLINE Lanes& operator+=(Lanes b) { return v = hn::Add(v, b.v), *this; }
+    HWY_INLINE Lanes& operator-=(Lanes b) { return v = hn::Sub(v, b.v), *this; }
+    HWY_INLINE Lanes& operator*=(Lanes b) { return v = hn::Mul(v, b.v), *this; }
+    HWY_INLINE friend Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+    HWY_INLINE friend Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+    HWY_INLINE friend Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+    HWY_INLINE friend Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+};
+
+HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c)
+{
+    return hn::MulAdd(a.v, b.v, c.v);
+}
+HWY_INLINE Lanes max(Lanes a, Lanes b)
+{
+    return hn::Max(a.v, b.v);
+}
+HWY_INLINE Lanes min(Lanes a, Lanes b)
+{
+    return hn::Min(a.v, b.v);
+}
+HWY_INLINE Lanes abs(Lanes a)
+{
+    return hn::Abs(a.v);
+}
+HWY_INLINE bool any(Mask m)
+{
+    return !m.none();
+}
+HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b)
+{
+    return hn::IfThenElse(m.m, a.v, b.v);
+}
+HWY_INLINE Lanes load(double const* from)
+{
+    return hn::Load(Tag(), from);
+}
+HWY_INLINE void store(Lanes a, double* to)
+{
+    hn::Store(a.v, Tag(), to);
+}
+HWY_INLINE double sum(Lanes a)
+{
+    return hn::GetLane(hn::SumOfLanes(Tag(), a.v));
+}
+
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+// An estimate of 14 bits and a series in what it misses: exact to about one unit in the last place, in a third of the
+// time that the divider takes.
+HWY_INLINE Lanes missing(Lanes a, Lanes b)  // 1 - a b
+{
+    return hn::NegMulAdd(a.v, b.v, hn::Set(Tag(), 1.0));
+}
+HWY_INLINE Lanes reciprocal(Lanes a)
+{
+    Lanes const r = Register{_mm512_rcp14_pd(a.v.raw)}, miss = missing(a, r);
+    Lanes const near = mul_add(r, miss, r);
+    return mul_add(near, miss * miss, near);
+}
+HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
+{
+    Lanes const r = Register{_mm512_rsqrt14_pd(a.v.raw)}, miss = missing(a * r, r);
+    Lanes series = mul_add(Lanes(35.0 / 128), miss, Lanes(5.0 / 16));
+    series = mul_add(series, miss, Lanes(3.0 / 8));
+    series = mul_add(series, miss, Lanes(0.5));
+    return mul_add(series, r * miss, r);
+}
+HWY_INLINE Lanes sqrt(Lanes a)
+{
+    Lanes const r = reciprocal_sqrt(a);
+    return Register{_mm512_maskz_mul_pd(_mm512_cmp_pd_mask(a.v.raw, _mm512_setzero_pd(), _CMP_GT_OQ), a.v.raw, r.v.raw)};
+}
+#else
+HWY_INLINE Lanes reciprocal(Lanes a)
+{
+    return Lanes(1.0) / a;
+}
+HWY_INLINE Lanes sqrt(Lanes a)
+{
+    return hn::Sqrt(a.v);
+}
+HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
+{
+    return Lanes(1.0) / sqrt(a);
+}
+#endif
+
+HWY_INLINE Lanes power_of_two_below(Lanes a)
+{
+    hn::RebindToUnsigned<Tag> const bits;
+    return hn::BitCast(Tag(), hn::And(hn::BitCast(bits, a.v), hn::Set(bits, 0x7FF0000000000000u)));
+}
+
+// Where rows begin that are `stride` bytes long: addresses of `width` of them.
+struct Addresses
+{
+    alignas(64) double* at[width];
+
+    HWY_INLINE Addresses(double* base, std::size_t stride, std::uint32_t const* rows)
+    {
+        for (std::size_t lane = 0; lane < width; ++lane)
+            at[lane] = base + stride / sizeof(double) * rows[lane];
+    }
+};
+
+// Four numbers of `width` rows: out[k] holds the k-th numbers behind `offset` of the rows.
+HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* out)
+{
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    auto const both = [&](std::size_t k) {
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows.at[k] + offset)),
+                                  _mm256_load_pd(rows.at[k + 4] + offset), 1);
+    };
+    __m512d const r0 = both(0), r1 = both(1), r2 = both(2), r3 = both(3);
+    __m512d const xz0 = _mm512_unpacklo_pd(r0, r1), yw0 = _mm512_unpackhi_pd(r0, r1);
+    __m512d const xz1 = _mm512_unpacklo_pd(r2, r3), yw1 = _mm512_unpackhi_pd(r2, r3);
+    __m512i const low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    out[0] = Register{_mm512_permutex2var_pd(xz0, low, xz1)};
+    out[1] = Register{_mm512_permutex2var_pd(yw0, low, yw1)};
+    out[2] = Register{_mm512_permutex2var_pd(xz0, high, xz1)};
+    out[3] = Register{_mm512_permutex2var_pd(yw0, high, yw1)};
+#elif HWY_TARGET == HWY_AVX2
+    Tag const d;
+    auto const r0 = hn::Load(d, rows.at[0] + offset), r1 = hn::Load(d, rows.at[1] + offset);
+    auto const r2 = hn::Load(d, rows.at[2] + offset), r3 = hn::Load(d, rows.at[3] + offset);
+    auto const xz0 = hn::InterleaveLower(d, r0, r1), yw0 = hn::InterleaveUpper(d, r0, r1);
+    auto const xz1 = hn::InterleaveLower(d, r2, r3), yw1 = hn::InterleaveUpper(d, r2, r3);
+    out[0] = hn::ConcatLowerLower(d, xz1, xz0), out[1] = hn::ConcatLowerLower(d, yw1, yw0);
+    out[2] = hn::ConcatUpperUpper(d, xz1, xz0), out[3] = hn::ConcatUpperUpper(d, yw1, yw0);
+#else
+    alignas(64) double values[4][8];
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (std::size_t k = 0; k < 4; ++k) values[k][lane] = rows.at[lane][offset + k];
+    for (std::size_t k = 0; k < 4; ++k) out[k] = load(values[k]);
+#endif
+}
+
+// Adds a force and a torque to each row of eight numbers (the fourth and the eighth stay), one row after the other: rows
+// may be the same.
+HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Triple<Lanes> const& torque)
+{
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    __m512d const zero = _mm512_setzero_pd();
+    __m512i const even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    // Of four rows of x y z 0 each register holds one in its lower and one in its upper half: 0 4, 1 5, 2 6, 3 7.
+    auto const turned = [&](Triple<Lanes> const& in, __m512d* out) {
+        __m512d const x = in.x.v.raw, y = in.y.v.raw, z = in.z.v.raw;
+        __m512d const xy0 = _mm512_unpacklo_pd(x, y), xy1 = _mm512_unpackhi_pd(x, y);
+        __m512d const z0 = _mm512_unpacklo_pd(z, zero), z1 = _mm512_unpackhi_pd(z, zero);
+        out[0] = _mm512_permutex2var_pd(xy0, even, z0), out[1] = _mm512_permutex2var_pd(xy1, even, z1);
+        out[2] = _mm512_permutex2var_pd(xy0, odd, z0), out[3] = _mm512_permutex2var_pd(xy1, odd, z1);
+    };
+    __m512d f[4], t[4];
+    turned(force, f);
+    turned(torque, t);
+    auto const add = [&](std::size_t lane, __m512d what) {
+        _mm512_store_pd(rows.at[lane], _mm512_add_pd(_mm512_load_pd(rows.at[lane]), what));
+    };
+    for (std::size_t k = 0; k < 4; ++k) add(k, _mm512_insertf64x4(f[k], _mm512_castpd512_pd256(t[k]), 1));
+    for (std::size_t k = 0; k < 4; ++k) add(k + 4, _mm512_shuffle_f64x2(f[k], t[k], 0xEE));
+#elif HWY_TARGET == HWY_AVX2
+    Tag const d;
+    auto const zero = hn::Zero(d);
+    auto const add = [&](Triple<Lanes> const& in, std::size_t offset) {
+        auto const xy0 = hn::InterleaveLower(d, in.x.v, in.y.v), xy1 = hn::InterleaveUpper(d, in.x.v, in.y.v);
+        auto const z0 = hn::InterleaveLower(d, in.z.v, zero), z1 = hn::InterleaveUpper(d, in.z.v, zero);
+        auto const one = [&](std::size_t lane, Register what) {
+            hn::Store(hn::Add(hn::Load(d, rows.at[lane] + offset), what), d, rows.at[lane] + offset);
+        };
+        one(0, hn::ConcatLowerLower(d, z0, xy0)), one(1, hn::ConcatLowerLower(d, z1, xy1));
+        one(2, hn::ConcatUpperUpper(d, z0, xy0)), one(3, hn::ConcatUpperUpper(d, z1, xy1));
+    };
+    add(force, 0);
+    add(torque, 4);
+#else
+    alignas(64) double values[6][8];
+    store(force.x, values[0]), store(force.y, values[1]), store(force.z, values[2]);
+    store(torque.x, values[3]), store(torque.y, values[4]), store(torque.z, values[5]);
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (std::size_t k = 0; k < 6; ++k) rows.at[lane][k < 3 ? k : k + 1] += values[k][lane];
+#endif
+}
+}

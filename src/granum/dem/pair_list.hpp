@@ -1,0 +1,70 @@
+// The pairs of granules that may touch, with the history of those that do, in the blocks that the kernels work on.
+//
+// Pairs that touch or nearly touch when the list is made stand in front: their blocks are full of contacts. The others
+// follow; most of their blocks cost a look at eight distances. What a contact remembers is carried from list to list by
+// the identity of its partners, so sorting and migration cannot lose it. A pair of which a partner belongs to another
+// rank is known on both, each with its own copy of the same history.
+#pragma once
+
+#include "granum/dem/neighbours.hpp"
+
+#include <array>
+#include <functional>
+#include <utility>
+
+namespace granum::dem
+{
+//! What a contact remembers: as many numbers as its laws say, the others zero.
+using History = std::array<double, 8>;
+
+class PairList
+{
+  public:
+    //! Number of columns of the histories.
+    void shape(std::size_t columns) { columns_ = columns; }
+
+    //! Makes the list of `candidates`. `row_now` says where a row of the list before is now (Frame::lonely or more:
+    //! nowhere). Histories of contacts go on; what springs of contacts that are no candidates any more had stored is
+    //! passed to `ended` with the number of owned partners that they had.
+    void make(Frame const& frame, Domain const& domain, Candidates const& candidates,
+              std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before);
+
+    //! Gives a history to a pair, if it is in the list. For contacts that come from another rank or a checkpoint.
+    void set(std::uint32_t row, std::uint32_t other, History const& history);
+
+    //! Calls what(low row, high row, history) for every pair that touches.
+    template <class What>
+    void for_each_touching(What&& what) const
+    {
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            for (std::size_t lane = 0; lane < kernel::block; ++lane)
+                if ((touching_[b] >> lane & 1) != 0) what(blocks_[b].low[lane], blocks_[b].high[lane], history(b, lane));
+    }
+
+    void run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain, double dt,
+             kernel::Seen& seen);
+
+    std::size_t pairs() const { return pairs_; }
+    std::size_t blocks() const { return blocks_.size(); }
+    bool empty() const { return blocks_.empty(); }
+    //! What was stored in springs of contacts that ended while a list was made, J.
+    double take_lost_energy();
+    std::size_t bytes() const;
+
+    History history(std::size_t b, std::size_t lane) const;
+    //! The shift to add to low - high of a pair, m.
+    Vec3 shift(std::size_t b, std::size_t lane, Domain const& domain) const;
+    kernel::PairBlock const& rows(std::size_t b) const { return blocks_[b]; }
+    bool touching(std::size_t b, std::size_t lane) const { return (touching_[b] >> lane & 1) != 0; }
+
+  private:
+    std::size_t find_near(std::uint32_t row, std::uint32_t other) const;
+
+    std::size_t columns_ = 6, pairs_ = 0;
+    base::AlignedVector<kernel::PairBlock> blocks_;
+    base::AlignedVector<double> history_;
+    std::vector<std::uint8_t> touching_, image_;
+    std::vector<std::uint32_t> near_begin_, near_end_;
+    double lost_energy_ = 0;
+};
+}

@@ -1,0 +1,140 @@
+#include "granum/par/partition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granum::par
+{
+Partition::Partition(Space const& space) : space_(space), boxes_{space.box} {}
+
+Partition::Partition(Space const& space, Slabs const& slabs) : space_(space)
+{
+    int const ranks = slabs.ranks();
+    boxes_.resize(static_cast<std::size_t>(ranks));
+    for (int rank = 0; rank + 1 < ranks; ++rank)
+        cuts_.push_back({0, slabs.upper(rank), -1 - rank, rank + 2 < ranks ? rank + 1 : -1 - (rank + 1)});
+    if (ranks == 1)
+        boxes_[0] = space.box;
+    else
+        find_boxes(0, space.box);
+}
+
+void Partition::find_boxes(int cut, Box const& box)
+{
+    if (cut < 0) {
+        boxes_[static_cast<std::size_t>(-1 - cut)] = box;
+        return;
+    }
+    auto const here = cuts_[static_cast<std::size_t>(cut)];
+    Box first = box, behind = box;
+    first.upper[here.direction] = here.at;
+    behind.lower[here.direction] = here.at;
+    find_boxes(here.first, first);
+    find_boxes(here.behind, behind);
+}
+
+int Partition::owner(Vec3 const& x) const
+{
+    int cut = cuts_.empty() ? -1 : 0;
+    while (cut >= 0) {
+        auto const& here = cuts_[static_cast<std::size_t>(cut)];
+        cut = x[here.direction] < here.at ? here.first : here.behind;
+    }
+    return -1 - cut;
+}
+
+double Partition::distance2(Vec3 const& x, int rank) const
+{
+    auto const& part = box(rank);
+    double sum = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        double const low = part.lower[d], high = part.upper[d], length = space_.box.upper[d] - space_.box.lower[d];
+        double off = std::max({low - x[d], x[d] - high, 0.0});
+        if (space_.periodic[d]) {
+            off = std::min(off, std::max({low - x[d] - length, x[d] + length - high, 0.0}));
+            off = std::min(off, std::max({low - x[d] + length, x[d] - length - high, 0.0}));
+        } else if ((x[d] < low && low == space_.box.lower[d]) || (x[d] > high && high == space_.box.upper[d])) {
+            off = 0;
+        }
+        sum += off * off;
+    }
+    return sum;
+}
+
+std::vector<int> Partition::near(int rank, double reach) const
+{
+    std::vector<int> out;
+    auto const& mine = box(rank);
+    for (int other = 0; other < ranks(); ++other) {
+        if (other == rank) continue;
+        auto const& part = box(other);
+        bool close = true;
+        for (std::size_t d = 0; d < 3; ++d) {
+            double const length = space_.box.upper[d] - space_.box.lower[d];
+            double gap = std::max({part.lower[d] - mine.upper[d], mine.lower[d] - part.upper[d], 0.0});
+            if (space_.periodic[d])
+                for (double const by : {length, -length})
+                    gap = std::min(gap, std::max({part.lower[d] + by - mine.upper[d],
+                                                  mine.lower[d] - part.upper[d] - by, 0.0}));
+            close = close && gap < reach;
+        }
+        if (close) out.push_back(other);
+    }
+    return out;
+}
+
+// One level after the other: the ranks' points in a part are cut where the work below is the share of the first group.
+struct Partition::Balance
+{
+    Partition& partition;
+    std::span<Vec3 const> points;
+    std::span<double const> work;
+    Communicator const& comm;
+
+    // Returns the number of the cut made, or -1 - rank.
+    int divide(std::vector<std::uint32_t> mine, Box const& box, int first_rank, int ranks)
+    {
+        if (ranks == 1) return -1 - first_rank;
+        std::size_t direction = 0;
+        for (std::size_t d = 1; d < 3; ++d)
+            if (box.upper[d] - box.lower[d] > 1.0000001 * (box.upper[direction] - box.lower[direction])) direction = d;
+        int const first_group = ranks / 2;
+        double total = 0;
+        for (auto const k : mine) total += work[k];
+        double const goal = comm.sum(total) * first_group / ranks;
+        double low = box.lower[direction], high = box.upper[direction];
+        for (int halving = 0; halving < 40; ++halving) {
+            double const middle = 0.5 * (low + high);
+            double below = 0;
+            for (auto const k : mine)
+                if (points[k][direction] < middle) below += work[k];
+            (comm.sum(below) < goal ? low : high) = middle;
+        }
+        double const at = 0.5 * (low + high);
+        std::vector<std::uint32_t> first, behind;
+        for (auto const k : mine) (points[k][direction] < at ? first : behind).push_back(k);
+        int const cut = static_cast<int>(partition.cuts_.size());
+        partition.cuts_.push_back({direction, at, 0, 0});
+        Box first_box = box, behind_box = box;
+        first_box.upper[direction] = behind_box.lower[direction] = at;
+        int const first_cut = divide(std::move(first), first_box, first_rank, first_group);
+        int const behind_cut = divide(std::move(behind), behind_box, first_rank + first_group, ranks - first_group);
+        partition.cuts_[static_cast<std::size_t>(cut)].first = first_cut;
+        partition.cuts_[static_cast<std::size_t>(cut)].behind = behind_cut;
+        return cut;
+    }
+};
+
+Partition Partition::balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
+                              Communicator const& comm)
+{
+    Partition out;
+    out.space_ = space;
+    out.boxes_.assign(static_cast<std::size_t>(comm.size()), space.box);
+    std::vector<std::uint32_t> all(points.size());
+    for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
+    Balance balance{out, points, work, comm};
+    if (comm.size() > 1) out.find_boxes(balance.divide(std::move(all), space.box, 0, comm.size()), space.box);
+    return out;
+}
+}
