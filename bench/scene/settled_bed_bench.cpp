@@ -55,7 +55,7 @@ int main(int argc, char** argv)
         for (int k = 0; k < 20; ++k) scene.engine->prepare(scene.granules);
         double const rebuild = (processor_seconds() - start) / 20;
         fmt::print("one rebuild of the neighbour list: {:.2f} ms, candidates per granule {:.2f}; a step: {:.2f} ms\n",
-                   1e3 * rebuild, static_cast<double>(scene.engine->contacts().pairs.size()) / 11000,
+                   1e3 * rebuild, static_cast<double>(scene.engine->candidates()) / 11000,
                    1e3 / rates[repetitions / 2]);
     }
     MPI_Finalize();

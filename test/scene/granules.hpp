@@ -88,7 +88,7 @@ struct Scene
 
     void run(long steps, double dt)
     {
-        for (long k = 0; k < steps; ++k) engine->step(granules, dt);
+        engine->advance(granules, dt, static_cast<int>(steps));
     }
 
     //! Row of the granule with this id; owned rows only.
@@ -146,15 +146,15 @@ inline Impact run_impact(Scene& scene, double dt, long most = 10'000'000)
     bool touched = false;
     for (; seen.steps < most; ++seen.steps) {
         scene.engine->step(scene.granules, dt);
-        auto const contacts = scene.engine->contacts().active(scene.granules);
+        auto const contacts = scene.engine->contacts();
         if (contacts.empty()) {
             if (touched) break;
             continue;
         }
         touched = true;
         seen.duration += dt;
-        seen.largest_force = std::max(seen.largest_force, contacts[0].history.normal_force);
-        seen.largest_overlap = std::max(seen.largest_overlap, contacts[0].history.overlap);
+        seen.largest_force = std::max(seen.largest_force, contacts[0].normal_force);
+        seen.largest_overlap = std::max(seen.largest_overlap, contacts[0].overlap);
     }
     return seen;
 }

@@ -56,15 +56,15 @@ inline Impact collide(sim::Simulation& simulation, std::function<void(double, do
     Impact seen;
     for (bool touched = false;;) {
         simulation.step(simulation.granule_dt());
-        auto const contacts = simulation.engine().contacts().active(simulation.granules());
+        auto const contacts = simulation.engine().contacts();
         if (contacts.empty() && touched) break;
         if (contacts.empty()) continue;
         touched = true;
-        auto const& history = contacts[0].history;
-        if (look) look(history.overlap, history.normal_force);
+        auto const& contact = contacts[0];
+        if (look) look(contact.overlap, contact.normal_force);
         seen.duration += simulation.granule_dt();
-        seen.force = std::max(seen.force, history.normal_force);
-        seen.overlap = std::max(seen.overlap, history.overlap);
+        seen.force = std::max(seen.force, contact.normal_force);
+        seen.overlap = std::max(seen.overlap, contact.overlap);
     }
     auto const& granules = simulation.granules();
     auto const row = granules.id[0] == 0 ? 0u : 1u;

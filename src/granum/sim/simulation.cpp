@@ -89,7 +89,7 @@ void Simulation::step(double longest)
     int const substeps = std::max(1, static_cast<int>(std::ceil(dt / granule_dt_ * (1 - 1e-9))));
 
     if (has_gas()) gas_step(dt);
-    for (int s = 0; s < substeps; ++s) engine_->step(granules_, dt / substeps);
+    engine_->advance(granules_, dt / substeps, substeps);
 
     granule_steps_ += substeps * comm_.sum(static_cast<long>(granules_.owned));
     time_ += dt;

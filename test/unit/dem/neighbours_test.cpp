@@ -3,52 +3,83 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 namespace
 {
 using namespace granum;
+using dem::Vec3;
+
+// Granules at random in a box, sizes from `smallest` to 1 mm radius; the last fifth of the rows belong to others.
+dem::Frame cloud(Vec3 const& box, double smallest, std::uint32_t seed)
+{
+    dem::Frame frame;
+    constexpr std::size_t rows = 500;
+    frame.owned = 400;
+    frame.resize(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        base::Random random(seed, base::Purpose::test, row, 0);
+        frame.id[row] = (row * 7919) % rows;
+        for (std::size_t d = 0; d < 3; ++d) frame.bodies[row].position[d] = box[d] * random.uniform();
+        frame.bodies[row].radius = 1e-3 * smallest * std::pow(1 / smallest, random.uniform());
+    }
+    return frame;
+}
+
+std::set<std::pair<std::uint32_t, std::uint32_t>> plain_double_loop(dem::Frame const& frame, dem::Domain const& domain,
+                                                                     double skin)
+{
+    std::set<std::pair<std::uint32_t, std::uint32_t>> out;
+    for (std::uint32_t a = 0; a < frame.rows(); ++a)
+        for (std::uint32_t b = 0; b < frame.rows(); ++b) {
+            if (frame.id[a] >= frame.id[b] || (a >= frame.owned && b >= frame.owned)) continue;
+            Vec3 apart = frame.position(a) - frame.position(b);
+            for (std::size_t d = 0; d < 3; ++d)
+                if (domain.periodic[d]) apart[d] -= domain.size()[d] * std::round(apart[d] / domain.size()[d]);
+            if (norm(apart) < frame.radius(a) + frame.radius(b) + skin) out.insert({a, b});
+        }
+    return out;
+}
 
 TEST(NeighbourSearch, finds_exactly_the_pairs_of_the_plain_double_loop_from_low_to_high_id)
 {
-    for (double const box : {0.02, 0.05}) {  // dense, and scattered
-        particle::Store granules;
-        granules.resize(400);
-        granules.owned = 300;
-        for (std::size_t row = 0; row < 400; ++row) {
-            base::Random random(1, base::Purpose::test, row, 0);
-            granules.id[row] = (row * 7919) % 400;
-            granules.position[row] = {box * random.uniform(), 0.5 * box * random.uniform(), 2 * box * random.uniform()};
-            granules.radius[row] = 1e-3 * (0.5 + 0.5 * random.uniform());
-        }
-        double const skin = 4e-4;
-        dem::NeighbourSearch search;
-        std::vector<dem::PairRows> found;
-        search.pairs(granules, 2e-3 + skin, skin, found);
-        std::set<std::pair<std::uint32_t, std::uint32_t>> expected, got;
-        for (std::uint32_t a = 0; a < 400; ++a)
-            for (std::uint32_t b = 0; b < 400; ++b)
-                if (granules.id[a] < granules.id[b] && (a < 300 || b < 300) &&
-                    norm(granules.position[a] - granules.position[b]) < granules.radius[a] + granules.radius[b] + skin)
-                    expected.insert({a, b});
-        for (auto const& [low, high] : found) got.insert({low, high});
-        EXPECT_EQ(got, expected);
-        EXPECT_EQ(got.size(), found.size());  // none twice
-        EXPECT_FALSE(expected.empty());
-    }
+    double const skin = 3e-4;
+    for (double const smallest : {1.0, 0.5, 0.1, 0.02})
+        for (int periodic = 0; periodic < 8; ++periodic)
+            for (Vec3 const box : {Vec3{0.02, 0.01, 0.04}, Vec3{0.006, 0.05, 0.0047}, Vec3{0.1, 0.1, 0.3}}) {
+                auto const frame = cloud(box, smallest, static_cast<std::uint32_t>(periodic));
+                dem::Domain const domain{{0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
+                dem::NeighbourSearch search;
+                dem::Candidates found;
+                search.find(frame, domain, 0.5 * box, skin, 0.2 * skin, found);
+                auto const expected = plain_double_loop(frame, domain, skin);
+                std::set<std::pair<std::uint32_t, std::uint32_t>> got, near;
+                for (auto const& [low, high] : found.near) got.insert({low, high}), near.insert({low, high});
+                for (auto const& [low, high] : found.far) got.insert({low, high});
+                EXPECT_EQ(got, expected) << smallest << " " << periodic << " " << box.x;
+                EXPECT_EQ(got.size(), found.near.size() + found.far.size());  // none twice
+                EXPECT_EQ(near, plain_double_loop(frame, domain, 0.2 * skin));
+                for (std::uint32_t row = 0; row < frame.rows(); ++row)
+                    for (auto k = found.near_begin[row]; k < found.near_end[row]; ++k)
+                        EXPECT_TRUE(found.near[k].low == row || found.near[k].high == row);
+            }
 }
 
-TEST(NeighbourSearch, sorts_every_owned_row_once)
+TEST(NeighbourSearch, sorts_every_row_once_so_that_neighbours_follow_each_other)
 {
-    particle::Store granules;
-    granules.resize(50);
-    granules.owned = 40;
-    for (std::size_t row = 0; row < 50; ++row) granules.position[row].x = 1e-3 * static_cast<double>((row * 37) % 50);
+    dem::Frame frame;
+    frame.owned = 50;
+    frame.resize(50);
+    for (std::size_t row = 0; row < 50; ++row) {
+        frame.bodies[row].position[0] = 1e-3 * static_cast<double>((row * 37) % 50);
+        frame.bodies[row].radius = 1e-3;
+    }
     dem::NeighbourSearch search;
-    auto const order = search.sorted_rows(granules, 2e-3);
-    ASSERT_EQ(order.size(), 40u);
-    EXPECT_EQ(std::set<std::uint32_t>(order.begin(), order.end()).size(), 40u);
+    auto const order = search.sorted_rows(frame, {{0, 0, 0}, {0.05, 0.05, 0.05}, {}}, {0.025, 0.025, 0.025}, 2e-3);
+    ASSERT_EQ(order.size(), 50u);
+    EXPECT_EQ(std::set<std::uint32_t>(order.begin(), order.end()).size(), 50u);
     for (std::size_t k = 1; k < order.size(); ++k)
-        EXPECT_LT(granules.position[order[k - 1]].x, granules.position[order[k]].x + 2.1e-3);
+        EXPECT_LT(frame.position(order[k - 1]).x, frame.position(order[k]).x + 2.1e-3);
 }
 }

@@ -110,63 +110,141 @@ HWY_INLINE Lanes shares(std::uint32_t const* low, std::uint32_t const* high, std
     return load(share);
 }
 
-// One contact per lane: the laws, one after the other.
-template <class Normal, class Tangential, class Rolling>
-struct Contact
+// One contact per lane on its way to the laws and back. It goes through memory, so that only the laws themselves, and
+// not the loops around them, are compiled for each of their combinations.
+struct Staged
 {
-    static constexpr int columns = Tangential::history + Rolling::history;
-    Normal const& normal_law;
-    Tangential const& tangential_law;
-    Rolling const& rolling_law;
-
+    Pair<Lanes> const* pair;
+    Approach<Lanes> at;
+    Triple<Lanes> n, velocity, spin;  // of the first partner against the second, at the contact
+    Mask touch;
+    double* history;
+    // Answers, on the first partner:
     Triple<Lanes> force, tangential, rolling;
     Lanes dissipated, elastic;
-
-    template <bool Ledger>
-    HWY_INLINE void evaluate(Pair<Lanes> const& pair, Approach<Lanes> const& at, Triple<Lanes> const& n,
-                             Triple<Lanes> const& velocity, Triple<Lanes> const& spin, Lanes* history)
-    {
-        Lanes stiffness = 0.0, stored = 0.0;
-        if constexpr (Ledger) stiffness = history[columns];
-        auto const normal = normal_law(pair, at);
-        auto const slide =
-            tangential_law(pair, at, normal, n, velocity - at.speed * n, history, stored, stiffness);
-        auto const roll = rolling_law(pair, at, normal, n, spin, history + Tangential::history);
-        tangential = slide.force;
-        rolling = roll.torque;
-        force = normal.force * n + slide.force;
-        if constexpr (Ledger) {
-            // The speed at the end of the step, where the force is: half a step more of this contact's acceleration.
-            Lanes const speed = at.speed + Lanes(0.5) * at.step * normal.force / at.mass;
-            stored += roll.energy;
-            dissipated = (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work +
-                         history[columns + 1] - stored;
-            elastic = normal.energy + stored;
-            history[columns] = stiffness, history[columns + 1] = stored;
-        }
-    }
 };
 
 template <class Normal, class Tangential, class Rolling, bool Ledger>
-HWY_FLATTEN void pair_pass(PairPass const& in, Seen& seen)
+HWY_FLATTEN void laws_of(Rules const& rules, Staged& contact)
+{
+    constexpr std::size_t columns = Tangential::history + Rolling::history + (Ledger ? 2 : 0);
+    auto const& normal_law = *static_cast<Normal const*>(rules.normal);
+    auto const& tangential_law = *static_cast<Tangential const*>(rules.tangential);
+    auto const& rolling_law = *static_cast<Rolling const*>(rules.rolling);
+    auto const& pair = *contact.pair;
+    auto const at = contact.at;
+    auto const n = contact.n;
+    Lanes history[columns + 1];
+    for (std::size_t c = 0; c < columns; ++c) history[c] = load(contact.history + c * block);
+    Lanes stiffness = 0.0, stored = 0.0;
+    if constexpr (Ledger) stiffness = history[columns - 2];
+    auto const normal = normal_law(pair, at);
+    auto const slide =
+        tangential_law(pair, at, normal, n, contact.velocity - at.speed * n, history, stored, stiffness);
+    auto const roll = rolling_law(pair, at, normal, n, contact.spin, history + Tangential::history);
+    contact.tangential = kept(contact.touch, slide.force);
+    contact.rolling = kept(contact.touch, roll.torque);
+    contact.force = kept(contact.touch, mul_add(normal.force, n, slide.force));
+    if constexpr (Ledger) {
+        // The speed at the end of the step, where the force is: half a step more of this contact's acceleration.
+        Lanes const speed = at.speed + Lanes(0.5) * at.step * normal.force * at.inverse_mass;
+        stored += roll.energy;
+        contact.dissipated = (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work +
+                             history[columns - 1] - stored;
+        contact.elastic = normal.energy + stored;
+        history[columns - 2] = stiffness, history[columns - 1] = stored;
+    }
+    Lanes const zero = 0.0;
+    for (std::size_t c = 0; c < columns; ++c)
+        store(select(contact.touch, history[c], zero), contact.history + c * block);
+}
+
+using law::contact::NormalLaws;
+using law::contact::RollingLaws;
+using law::contact::TangentialLaws;
+using Laws = void (*)(Rules const&, Staged&);
+
+// Every combination of laws, without and with the ledger.
+template <class... Normal, class... Tangential, class... Rolling>
+constexpr auto every_combination(base::TypeList<Normal...>, base::TypeList<Tangential...>, base::TypeList<Rolling...>)
+{
+    std::array<Laws, 2 * sizeof...(Normal) * sizeof...(Tangential) * sizeof...(Rolling)> table{};
+    std::size_t at = 0;
+    auto const rolling = [&]<class N, class T>() {
+        ((table[at++] = laws_of<N, T, Rolling, false>, table[at++] = laws_of<N, T, Rolling, true>), ...);
+    };
+    auto const tangential = [&]<class N>() { (rolling.template operator()<N, Tangential>(), ...); };
+    (tangential.template operator()<Normal>(), ...);
+    return table;
+}
+
+constexpr auto combinations = every_combination(NormalLaws{}, TangentialLaws{}, RollingLaws{});
+
+Laws chosen(Rules const& rules)
+{
+    std::size_t const place =
+        (rules.normal_index * TangentialLaws::size + rules.tangential_index) * RollingLaws::size + rules.rolling_index;
+    return combinations[2 * place + (rules.ledger ? 1 : 0)];
+}
+
+// What a pass adds up.
+struct Tally
+{
+    Lanes worst, dissipated = 0.0, elastic = 0.0;
+    long contacts = 0;
+
+    HWY_INLINE explicit Tally(Seen const& seen) : worst(seen.largest_overlap) {}
+    HWY_INLINE void overlap(Mask touch, Lanes overlap, Lanes radius)
+    {
+        Mask const worse = touch & (overlap > worst * radius);
+        if (any(worse)) worst = select(worse, overlap / radius, worst);
+    }
+    // A contact that ended leaves what its springs had stored.
+    HWY_INLINE void ended(Mask over, Lanes share, double const* stored)
+    {
+        dissipated += select(over, share * load(stored), Lanes(0.0));
+    }
+    HWY_INLINE void energies(Staged const& contact, Lanes share)
+    {
+        dissipated += select(contact.touch, share * contact.dissipated, Lanes(0.0));
+        elastic += select(contact.touch, share * contact.elastic, Lanes(0.0));
+    }
+    void tell(Seen& seen) const
+    {
+        alignas(64) double each[block];
+        store(worst, each);
+        for (std::size_t lane = 0; lane < width; ++lane)
+            if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
+        seen.contacts += contacts;
+        seen.dissipated += sum(dissipated);
+        seen.elastic += sum(elastic);
+    }
+};
+
+// Clears the histories of lanes that touched before and do not any more.
+HWY_INLINE void forget(unsigned before, double* history, std::size_t columns)
+{
+    if ((before & ((1u << width) - 1)) == 0) return;
+    for (std::size_t c = 0; c < columns; ++c) store(Lanes(0.0), history + c * block);
+}
+
+HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
 {
     Rules const& rules = *in.rules;
-    using Laws = Contact<Normal, Tangential, Rolling>;
-    constexpr std::size_t columns = Laws::columns + (Ledger ? 2 : 0);
-    Laws laws{*static_cast<Normal const*>(rules.normal), *static_cast<Tangential const*>(rules.tangential),
-              *static_cast<Rolling const*>(rules.rolling)};
-    Lanes const dt = in.dt;
+    auto const laws = chosen(rules);
+    std::size_t const columns = rules.columns;
     Pairings pairings(rules, in.material);
-    Lanes const zero = 0.0, shift = rules.lever_shift;
-    Lanes worst = seen.largest_overlap, dissipated = 0.0, elastic = 0.0;
-    long contacts = 0;
+    Lanes const shift = rules.lever_shift;
+    Tally tally(seen);
+    Staged contact;
+    contact.at.step = in.dt;
     for (std::size_t b = 0; b < in.blocks; ++b) {
         unsigned const before = in.touching[b];
         unsigned now = 0;
         for (std::size_t s = 0; s < block; s += width) {
             auto const* rows_low = in.pairs[b].low + s;
             auto const* rows_high = in.pairs[b].high + s;
-            double* const kept_history = in.history + b * columns * block + s;
+            double* const history = in.history + b * columns * block + s;
             Partner low(in.bodies, rows_low), high(in.bodies, rows_high);
             Triple<Lanes> apart = low.position - high.position;
             if (in.image != nullptr) {
@@ -178,148 +256,118 @@ HWY_FLATTEN void pair_pass(PairPass const& in, Seen& seen)
             Lanes const distance2 = norm2(apart), reach = low.radius + high.radius;
             Mask const touch = distance2 < reach * reach;
             unsigned const bits = touch.bits();
+            if (rules.ledger && (before >> s & ~bits & ((1u << width) - 1)) != 0)
+                tally.ended(!touch, shares(rows_low, rows_high, in.owned), history + (columns - 1) * block);
             if (bits == 0) {
-                if (((before >> s) & ((1u << width) - 1)) != 0) {
-                    if constexpr (Ledger) {
-                        Lanes const share = shares(rows_low, rows_high, in.owned);
-                        dissipated += share * load(kept_history + (columns - 1) * block);
-                    }
-                    for (std::size_t c = 0; c < columns; ++c) store(zero, kept_history + c * block);
-                }
+                forget(before >> s, history, columns);
                 continue;
             }
             now |= bits << s;
-            contacts += __builtin_popcount(bits);
+            tally.contacts += __builtin_popcount(bits);
             low.look();
             high.look();
-            Lanes history[columns];
-            for (std::size_t c = 0; c < columns; ++c) history[c] = load(kept_history + c * block);
-            if constexpr (Ledger) {
-                Lanes const share = shares(rows_low, rows_high, in.owned);
-                dissipated += select(touch, zero, share * history[columns - 1]);
-            }
-
             Lanes const inverse = reciprocal_sqrt(distance2);
             Triple<Lanes> const n = inverse * apart;
             Lanes const smaller = min(low.radius, high.radius);
             // Lanes that do not touch compute something harmless and are dropped.
             Lanes const overlap = select(touch, reach - distance2 * inverse, Lanes(1e-3) * smaller);
-            Mask const worse = touch & (overlap > worst * smaller);
-            if (!worse.none()) worst = select(worse, overlap / smaller, worst);
+            tally.overlap(touch, overlap, smaller);
             Lanes const lever_low = low.radius - shift * overlap, lever_high = high.radius - shift * overlap;
             Triple<Lanes> const velocity =
                 low.velocity - high.velocity - cross(lever_low * low.spin + lever_high * high.spin, n);
             // 1/(a b) gives both quotients with one division.
             Lanes const inverse_mass = low.inverse_mass + high.inverse_mass;
             Lanes const inverse_both = reciprocal(reach * inverse_mass);
-            Approach<Lanes> const at{.overlap = overlap,
-                                     .radius = low.radius * high.radius * (inverse_both * inverse_mass),
-                                     .mass = inverse_both * reach,
-                                     .inverse_mass = inverse_mass,
-                                     .inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high)),
-                                     .speed = dot(velocity, n),
-                                     .step = dt};
-            laws.template evaluate<Ledger>(pairings(rows_low, rows_high), at, n, velocity, low.spin - high.spin, history);
-            for (std::size_t c = 0; c < columns; ++c) store(select(touch, history[c], zero), kept_history + c * block);
+            contact.pair = &pairings(rows_low, rows_high);
+            contact.at.overlap = overlap;
+            contact.at.radius = low.radius * high.radius * (inverse_both * inverse_mass);
+            contact.at.mass = inverse_both * reach;
+            contact.at.inverse_mass = inverse_mass;
+            contact.at.inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high));
+            contact.at.speed = dot(velocity, n);
+            contact.n = n;
+            contact.velocity = velocity;
+            contact.spin = low.spin - high.spin;
+            contact.touch = touch;
+            contact.history = history;
+            laws(rules, contact);
 
-            Triple<Lanes> const force = kept(touch, laws.force), rolling = kept(touch, laws.rolling);
-            Triple<Lanes> const turn = kept(touch, cross(n, laws.tangential));
-            low.give(in.sums, force, rolling - lever_low * turn);
-            high.give(in.sums, -force, -rolling - lever_high * turn);
-            if constexpr (Ledger) {
-                Lanes const share = select(touch, shares(rows_low, rows_high, in.owned), zero);
-                dissipated += select(touch, share * laws.dissipated, zero);
-                elastic += select(touch, share * laws.elastic, zero);
-            }
+            Triple<Lanes> const turn = cross(n, contact.tangential);
+            low.give(in.sums, contact.force, contact.rolling - lever_low * turn);
+            high.give(in.sums, -contact.force, -contact.rolling - lever_high * turn);
+            if (rules.ledger) tally.energies(contact, shares(rows_low, rows_high, in.owned));
         }
         in.touching[b] = static_cast<std::uint8_t>(now);
     }
-    alignas(64) double each[block];
-    store(worst, each);
-    for (std::size_t lane = 0; lane < width; ++lane)
-        if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
-    seen.contacts += contacts;
-    if constexpr (Ledger) seen.dissipated += sum(dissipated), seen.elastic += sum(elastic);
+    tally.tell(seen);
 }
 
-template <class Normal, class Tangential, class Rolling, bool Ledger>
-HWY_FLATTEN void wall_pass(WallPass const& in, Seen& seen)
+HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
 {
     Rules const& rules = *in.rules;
-    using Laws = Contact<Normal, Tangential, Rolling>;
-    constexpr std::size_t columns = Laws::columns + (Ledger ? 2 : 0);
-    Laws laws{*static_cast<Normal const*>(rules.normal), *static_cast<Tangential const*>(rules.tangential),
-              *static_cast<Rolling const*>(rules.rolling)};
-    Lanes const dt = in.dt;
+    auto const laws = chosen(rules);
+    std::size_t const columns = rules.columns;
     Pairings pairings(rules, in.material);
     Lanes const zero = 0.0, shift = rules.lever_shift;
-    Lanes worst = seen.largest_overlap, dissipated = 0.0, elastic = 0.0;
-    long contacts = 0;
+    Tally tally(seen);
+    Staged contact;
+    contact.at.step = in.dt;
     auto const triple = [](double const* const* from, std::size_t place) {
         return Triple<Lanes>{load(from[0] + place), load(from[1] + place), load(from[2] + place)};
+    };
+    auto const keep = [](Triple<Lanes> const& what, double* const* to, std::size_t place) {
+        store(what.x, to[0] + place), store(what.y, to[1] + place), store(what.z, to[2] + place);
     };
     for (std::size_t b = 0; b < in.blocks; ++b) {
         unsigned const before = in.touching[b];
         unsigned now = 0;
         for (std::size_t s = 0; s < block; s += width) {
             std::size_t const place = b * block + s;
-            double* const kept_history = in.history + b * columns * block + s;
+            double* const history = in.history + b * columns * block + s;
             Lanes overlap = load(in.overlap + place);
             Mask const touch = overlap > zero;
             unsigned const bits = touch.bits();
+            if (rules.ledger && (before >> s & ~bits & ((1u << width) - 1)) != 0)
+                tally.ended(!touch, Lanes(1.0), history + (columns - 1) * block);
             if (bits == 0) {
-                for (std::size_t d = 0; d < 3; ++d) store(zero, in.force[d] + place), store(zero, in.torque[d] + place);
-                if (((before >> s) & ((1u << width) - 1)) != 0) {
-                    if constexpr (Ledger) dissipated += load(kept_history + (columns - 1) * block);
-                    for (std::size_t c = 0; c < columns; ++c) store(zero, kept_history + c * block);
-                }
+                forget(before >> s, history, columns);
+                keep({zero, zero, zero}, in.force, place);
+                keep({zero, zero, zero}, in.torque, place);
                 continue;
             }
             now |= bits << s;
-            contacts += __builtin_popcount(bits);
+            tally.contacts += __builtin_popcount(bits);
             Partner granule(in.bodies, in.row + place);
             granule.look();
-            Lanes history[columns];
-            for (std::size_t c = 0; c < columns; ++c) history[c] = load(kept_history + c * block);
-            if constexpr (Ledger) dissipated += select(touch, zero, history[columns - 1]);
-
             Triple<Lanes> const n = triple(in.normal, place);
             overlap = select(touch, overlap, Lanes(1e-3) * granule.radius);
-            Mask const worse = touch & (overlap > worst * granule.radius);
-            if (!worse.none()) worst = select(worse, overlap / granule.radius, worst);
+            tally.overlap(touch, overlap, granule.radius);
             Lanes const lever = granule.radius - shift * overlap;
             Triple<Lanes> const velocity =
                 granule.velocity - triple(in.velocity, place) - lever * cross(granule.spin, n);
-            Approach<Lanes> const at{.overlap = overlap,
-                                     .radius = granule.radius,
-                                     .mass = reciprocal(granule.inverse_mass),
-                                     .inverse_mass = granule.inverse_mass,
-                                     .inertia = reciprocal(inverse_inertia(granule)),
-                                     .speed = dot(velocity, n),
-                                     .step = dt};
-            laws.template evaluate<Ledger>(pairings.with_walls(in.row + place, in.wall_material + place), at, n, velocity,
-                                           granule.spin - triple(in.spin, place), history);
-            for (std::size_t c = 0; c < columns; ++c) store(select(touch, history[c], zero), kept_history + c * block);
+            contact.pair = &pairings.with_walls(in.row + place, in.wall_material + place);
+            contact.at.overlap = overlap;
+            contact.at.radius = granule.radius;
+            contact.at.mass = reciprocal(granule.inverse_mass);
+            contact.at.inverse_mass = granule.inverse_mass;
+            contact.at.inertia = reciprocal(inverse_inertia(granule));
+            contact.at.speed = dot(velocity, n);
+            contact.n = n;
+            contact.velocity = velocity;
+            contact.spin = granule.spin - triple(in.spin, place);
+            contact.touch = touch;
+            contact.history = history;
+            laws(rules, contact);
 
-            Triple<Lanes> const force = kept(touch, laws.force);
-            Triple<Lanes> const torque = kept(touch, laws.rolling - lever * cross(n, laws.tangential));
-            granule.give(in.sums, force, torque);
-            store(force.x, in.force[0] + place), store(force.y, in.force[1] + place), store(force.z, in.force[2] + place);
-            store(torque.x, in.torque[0] + place), store(torque.y, in.torque[1] + place),
-                store(torque.z, in.torque[2] + place);
-            if constexpr (Ledger) {
-                dissipated += select(touch, laws.dissipated, zero);
-                elastic += select(touch, laws.elastic, zero);
-            }
+            Triple<Lanes> const torque = contact.rolling - lever * cross(n, contact.tangential);
+            granule.give(in.sums, contact.force, torque);
+            keep(contact.force, in.force, place);
+            keep(torque, in.torque, place);
+            if (rules.ledger) tally.energies(contact, Lanes(1.0));
         }
         in.touching[b] = static_cast<std::uint8_t>(now);
     }
-    alignas(64) double each[block];
-    store(worst, each);
-    for (std::size_t lane = 0; lane < width; ++lane)
-        if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
-    seen.contacts += contacts;
-    if constexpr (Ledger) seen.dissipated += sum(dissipated), seen.elastic += sum(elastic);
+    tally.tell(seen);
 }
 
 template <int Kicks, bool Drifts>
@@ -378,59 +426,6 @@ void move(Motion const& in, MotionSeen& seen)
         move_rows<1, true>(in, seen);
     else
         move_rows<1, false>(in, seen);
-}
-
-// Every combination of laws, as a table of passes.
-using law::contact::NormalLaws;
-using law::contact::RollingLaws;
-using law::contact::TangentialLaws;
-
-template <class... Normal, class... Tangential, class... Rolling>
-constexpr auto every_pair_pass(base::TypeList<Normal...>, base::TypeList<Tangential...>, base::TypeList<Rolling...>)
-{
-    using Pass = void (*)(PairPass const&, Seen&);
-    std::array<Pass, 2 * sizeof...(Normal) * sizeof...(Tangential) * sizeof...(Rolling)> table{};
-    std::size_t at = 0;
-    auto const rolling = [&]<class N, class T>() {
-        ((table[at++] = pair_pass<N, T, Rolling, false>, table[at++] = pair_pass<N, T, Rolling, true>), ...);
-    };
-    auto const tangential = [&]<class N>() { (rolling.template operator()<N, Tangential>(), ...); };
-    (tangential.template operator()<Normal>(), ...);
-    return table;
-}
-
-template <class... Normal, class... Tangential, class... Rolling>
-constexpr auto every_wall_pass(base::TypeList<Normal...>, base::TypeList<Tangential...>, base::TypeList<Rolling...>)
-{
-    using Pass = void (*)(WallPass const&, Seen&);
-    std::array<Pass, 2 * sizeof...(Normal) * sizeof...(Tangential) * sizeof...(Rolling)> table{};
-    std::size_t at = 0;
-    auto const rolling = [&]<class N, class T>() {
-        ((table[at++] = wall_pass<N, T, Rolling, false>, table[at++] = wall_pass<N, T, Rolling, true>), ...);
-    };
-    auto const tangential = [&]<class N>() { (rolling.template operator()<N, Tangential>(), ...); };
-    (tangential.template operator()<Normal>(), ...);
-    return table;
-}
-
-constexpr auto pair_passes = every_pair_pass(NormalLaws{}, TangentialLaws{}, RollingLaws{});
-constexpr auto wall_passes = every_wall_pass(NormalLaws{}, TangentialLaws{}, RollingLaws{});
-
-std::size_t place_of(Rules const& rules)
-{
-    std::size_t const laws =
-        (rules.normal_index * TangentialLaws::size + rules.tangential_index) * RollingLaws::size + rules.rolling_index;
-    return 2 * laws + (rules.ledger ? 1 : 0);
-}
-
-void pairs(PairPass const& in, Seen& seen)
-{
-    pair_passes[place_of(*in.rules)](in, seen);
-}
-
-void walls(WallPass const& in, Seen& seen)
-{
-    wall_passes[place_of(*in.rules)](in, seen);
 }
 }
 }

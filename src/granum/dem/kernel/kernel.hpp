@@ -125,12 +125,11 @@ struct Kernel
     void (*move)(Motion const&, MotionSeen&);
 };
 
-//! Those that this processor can run, the fastest first; the last is the plain reference.
+//! Those that this processor can run, the fastest first; the last is the plain one.
 std::span<Kernel const* const> kernels();
 //! The kernel called `name`, or null.
 Kernel const* find_kernel(std::string_view name);
 
-Kernel const& reference();
 Kernel const& scalar();
 Kernel const& sse4();
 Kernel const& avx2();

@@ -15,7 +15,6 @@ std::span<Kernel const* const> kernels()
         if (fma) out.push_back(&avx2());
         if (__builtin_cpu_supports("sse4.2")) out.push_back(&sse4());
         out.push_back(&scalar());
-        out.push_back(&reference());
         return out;
     }();
     return here;

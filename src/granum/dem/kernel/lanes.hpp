@@ -5,9 +5,7 @@
 // into code for an older one.
 #pragma once
 
-#ifndef HWY_COMPILE_ONLY_SCALAR
 #define HWY_COMPILE_ONLY_STATIC
-#endif
 #include <hwy/highway.h>
 
 #include "granum/math/triple.hpp"

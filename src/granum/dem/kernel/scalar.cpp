@@ -221,9 +221,9 @@ void move(Motion const& in, MotionSeen& seen)
 }
 }
 
-Kernel const& reference()
+Kernel const& scalar()
 {
-    static constexpr Kernel kernel{"reference", pairs, walls, move};
+    static constexpr Kernel kernel{"scalar", pairs, walls, move};
     return kernel;
 }
 }
