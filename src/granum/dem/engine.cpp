@@ -54,6 +54,7 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
              .pairs = pairings.data(),
              .materials = laws.materials.size(),
              .lever_shift = laws.lever == Lever::contact_point ? 0.5 : 0.0,
+             .inertia = std::holds_alternative<law::contact::EpsdDashpot>(laws.rolling),
              .ledger = settings.energy_ledger,
              .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0)};
     pairs.shape(rules.columns);

@@ -238,6 +238,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
     Tally tally(seen);
     Staged contact;
     contact.at.step = in.dt;
+    contact.at.inertia = 1.0;
     for (std::size_t b = 0; b < in.blocks; ++b) {
         unsigned const before = in.touching[b];
         unsigned now = 0;
@@ -283,7 +284,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
             contact.at.radius = low.radius * high.radius * (inverse_both * inverse_mass);
             contact.at.mass = inverse_both * reach;
             contact.at.inverse_mass = inverse_mass;
-            contact.at.inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high));
+            if (rules.inertia) contact.at.inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high));
             contact.at.speed = dot(velocity, n);
             contact.n = n;
             contact.velocity = velocity;
@@ -312,6 +313,7 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
     Tally tally(seen);
     Staged contact;
     contact.at.step = in.dt;
+    contact.at.inertia = 1.0;
     auto const triple = [](double const* const* from, std::size_t place) {
         return Triple<Lanes>{load(from[0] + place), load(from[1] + place), load(from[2] + place)};
     };
@@ -350,7 +352,7 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
             contact.at.radius = granule.radius;
             contact.at.mass = reciprocal(granule.inverse_mass);
             contact.at.inverse_mass = granule.inverse_mass;
-            contact.at.inertia = reciprocal(inverse_inertia(granule));
+            if (rules.inertia) contact.at.inertia = reciprocal(inverse_inertia(granule));
             contact.at.speed = dot(velocity, n);
             contact.n = n;
             contact.velocity = velocity;

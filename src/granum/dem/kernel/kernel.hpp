@@ -50,6 +50,7 @@ struct Rules
     law::contact::Pair<double> const* pairs = nullptr;
     std::size_t materials = 1;
     double lever_shift = 0.5;  //!< lever of the contact point: radius less this part of the overlap
+    bool inertia = false;      //!< a law asks for Approach::inertia
     bool ledger = false;       //!< account for energies: two more columns of history
     std::size_t columns = 6;   //!< of history
 };
