@@ -20,6 +20,7 @@ EXTERNAL = {
     r"png\.h": {"report", "test"},
     r"nlohmann/": {"io", "report", "sim", "app", "test"},
     r"_?HYPRE|krylov\.h": {"solve"},
+    r"hwy/": {"dem"},
     r"mpi\.h": {"par", "solve", "app", "test", "bench"},
     r"CLI/": {"app", "bench"},
     r"(fmt|spdlog)/": {"*"},

@@ -86,10 +86,7 @@ struct Scene
         engine->prepare(granules);
     }
 
-    void run(long steps, double dt)
-    {
-        engine->advance(granules, dt, static_cast<int>(steps));
-    }
+    void run(long steps, double dt) { engine->advance(granules, dt, static_cast<int>(steps)); }
 
     //! Row of the granule with this id; owned rows only.
     std::size_t row(particle::Id id) const

@@ -1,10 +1,10 @@
 // Arrays that start on a cache line and may lie on huge pages, for loops over many megabytes.
 #pragma once
 
+#include <sys/mman.h>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
-#include <sys/mman.h>
 #include <vector>
 
 namespace granum::base

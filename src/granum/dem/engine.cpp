@@ -90,8 +90,8 @@ void Engine::Inside::name_overlap()
             if (!pairs.touching(b, lane)) continue;
             auto const low = pairs.rows(b).low[lane], high = pairs.rows(b).high[lane];
             double const distance = norm(frame.position(low) - frame.position(high) + pairs.shift(b, lane, domain));
-            double const overlap = (frame.radius(low) + frame.radius(high) - distance) /
-                                   std::min(frame.radius(low), frame.radius(high));
+            double const overlap =
+                (frame.radius(low) + frame.radius(high) - distance) / std::min(frame.radius(low), frame.radius(high));
             if (overlap <= worst) continue;
             worst = overlap;
             who = fmt::format("granules {} and {} overlap by {:.0f} % of a radius", frame.id[low], frame.id[high],
@@ -308,8 +308,10 @@ std::vector<Contact> Engine::contacts() const
     auto const& frame = in.frame;
     std::vector<Contact> out;
     auto const normal_force = [&](std::size_t pairing, double overlap, double radius, double mass, double speed) {
-        law::contact::Approach<double> const at{.overlap = overlap, .radius = radius, .mass = mass, .inertia = 1, .speed = speed, .step = 0};
-        return std::visit([&](auto const& law) { return law(in.pairings[pairing], at).force; }, in.settings.laws.normal);
+        law::contact::Approach<double> const at{
+            .overlap = overlap, .radius = radius, .mass = mass, .inertia = 1, .speed = speed, .step = 0};
+        return std::visit([&](auto const& law) { return law(in.pairings[pairing], at).force; },
+                          in.settings.laws.normal);
     };
     std::size_t const materials = in.rules.materials;
     for (std::size_t b = 0; b < in.pairs.blocks(); ++b)

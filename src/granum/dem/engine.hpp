@@ -36,7 +36,7 @@ struct Settings
     double warn_overlap = 0.10, stop_overlap = 0.50;  //!< of a radius
     bool frozen = false;                              //!< granules stay where they are
     bool energy_ledger = true;                        //!< account for what contacts store and dissipate
-    std::string kernel;  //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
+    std::string kernel;     //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
     int balance_every = 0;  //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
 };
 
@@ -116,4 +116,17 @@ class Engine
     struct Inside;
     std::unique_ptr<Inside> inside_;
 };
+
+//! A bound on the granule step with its reason.
+struct StepBound
+{
+    double seconds;
+    std::string reason;
+};
+
+//! Bounds for granules of `radius` (m) and `density` (kg/m3) that meet with `speed` (m/s), for every pairing that the
+//! granules' material 0 has: 0.2 of the time a Rayleigh wave takes around a granule, 1/20 of the duration of a Hertz
+//! contact, 0.2 sqrt(I / k_r) of the rolling spring at the overlap of that contact. Sources: Thornton and Randall,
+//! Micromechanics of Granular Materials (1988) 133 [R]; Johnson, Contact Mechanics (1985) 11.4 [R].
+std::vector<StepBound> step_bounds(Settings const& settings, double radius, double density, double speed);
 }

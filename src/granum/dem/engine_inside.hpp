@@ -27,9 +27,9 @@ struct Engine::Inside
     Watch watch;
     base::Stopwatch stopwatch;
 
-    double skin = 0;      // of the present list, m
-    double growth = 0;    // largest growth of a radius since the list was made, m
-    double travelled = 0;  // no granule went farther since the list was made, m
+    double skin = 0;             // of the present list, m
+    double growth = 0;           // largest growth of a radius since the list was made, m
+    double travelled = 0;        // no granule went farther since the list was made, m
     std::vector<Vec3> built_at;  // positions when the list was made
     std::vector<double> built_radius;
     long steps = 0, built_step = 0;

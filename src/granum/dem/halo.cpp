@@ -162,7 +162,8 @@ void Halo::refresh_all(Frame& frame)
     std::vector<std::vector<std::byte>> to_each(static_cast<std::size_t>(comm_.size()));
     for (auto const& side : sides_)
         for (auto const row : side.rows)
-            append(to_each[static_cast<std::size_t>(side.rank)], Copy{frame.bodies[row], frame.id[row], frame.material[row]});
+            append(to_each[static_cast<std::size_t>(side.rank)],
+                   Copy{frame.bodies[row], frame.id[row], frame.material[row]});
     auto const from_each = comm_.deliver(to_each);
     for (auto const& side : sides_) {
         std::span<std::byte const> bytes(from_each[static_cast<std::size_t>(side.rank)]);

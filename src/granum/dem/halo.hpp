@@ -34,10 +34,10 @@ class Halo
     //! Sends owned rows whose place belongs to another rank there, each with its `contacts` and what is attached, and
     //! takes those that come. `kept` receives the former rows of those that stayed, in their order; arrivals stand
     //! behind them. Returns the contacts that came. Collective.
-    std::vector<ContactRecord> migrate(particle::Store& granules,
-                                       std::function<std::vector<ContactRecord>(std::vector<std::uint32_t> const&)> const& contacts_of,
-                                       std::span<particle::Attachment* const> attachments,
-                                       std::vector<std::uint32_t>& kept) const;
+    std::vector<ContactRecord> migrate(
+        particle::Store& granules,
+        std::function<std::vector<ContactRecord>(std::vector<std::uint32_t> const&)> const& contacts_of,
+        std::span<particle::Attachment* const> attachments, std::vector<std::uint32_t>& kept) const;
 
     //! Appends copies of all granules of other ranks within `reach` (m) of this rank's part. Collective.
     void fill(Frame& frame, double reach);

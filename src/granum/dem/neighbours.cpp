@@ -17,7 +17,9 @@ double nearest_image(double x, double centre, double length)
 // Of a difference between two places that lie within one length of each other.
 double shortest(double difference, double length)
 {
-    return difference > 0.5 * length ? difference - length : difference < -0.5 * length ? difference + length : difference;
+    return difference > 0.5 * length    ? difference - length
+           : difference < -0.5 * length ? difference + length
+                                        : difference;
 }
 }
 
@@ -65,7 +67,8 @@ void NeighbourSearch::fill(Cells& cells, Domain const& domain, std::vector<std::
         fits = total <= 4.0 * static_cast<double>(rows.size()) + 64;
     }
     std::array<std::size_t, 3> order{0, 1, 2};
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cells.number[a] < cells.number[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return cells.number[a] < cells.number[b]; });
     std::size_t count = 1;
     for (auto const d : order) {
         cells.stride[d] = count;
@@ -118,7 +121,8 @@ void NeighbourSearch::classify(Domain const& domain, double skin)
     for (auto& members : members_) members.clear();
     for (std::size_t row = 0; row < rows; ++row) {
         std::size_t level = 0;
-        if (count > 1) level = std::min(count - 1, static_cast<std::size_t>(std::log2(largest / unsorted_[row].radius)));
+        if (count > 1)
+            level = std::min(count - 1, static_cast<std::size_t>(std::log2(largest / unsorted_[row].radius)));
         members_[level].push_back(static_cast<std::uint32_t>(row));
     }
     classes_.resize(count);
@@ -131,7 +135,8 @@ void NeighbourSearch::classify(Domain const& domain, double skin)
     }
 }
 
-// The cells around `at` as spans of places; `half`: of each pair of cells only one sees the other, the own cell not at all.
+// The cells around `at` as spans of places; `half`: of each pair of cells only one sees the other, the own cell not at
+// all.
 template <class Consider>
 void NeighbourSearch::visit(Cells const& cells, std::array<int, 3> const& at, bool half, Consider&& consider) const
 {

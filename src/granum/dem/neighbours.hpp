@@ -1,7 +1,8 @@
 // Who may touch whom until the list is made anew: a search over grids of cells, one grid per class of size.
 //
 // Granules of very different size in one grid would fill its cells with thousands of the small ones. Classes halve the
-// radius from one to the next; a granule looks for its own kind in the grid of its class, and for larger ones in theirs.
+// radius from one to the next; a granule looks for its own kind in the grid of its class, and for larger ones in
+// theirs.
 #pragma once
 
 #include "granum/dem/frame.hpp"
@@ -29,8 +30,8 @@ struct Candidates
 class NeighbourSearch
 {
   public:
-    //! All pairs of rows with at least one owned whose surfaces are closer than `skin` (m); closer than `close` (m) they
-    //! are near. Two images of one granule are no pair. `centre` is a point of the region that this rank owns: in
+    //! All pairs of rows with at least one owned whose surfaces are closer than `skin` (m); closer than `close` (m)
+    //! they are near. Two images of one granule are no pair. `centre` is a point of the region that this rank owns: in
     //! periodic directions a row counts where its image is nearest to it.
     void find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close, Candidates& out);
 

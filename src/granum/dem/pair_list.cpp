@@ -69,7 +69,8 @@ void PairList::make(Frame const& frame, Domain const& domain, Candidates const& 
             auto const low = former_blocks[b].low[lane], high = former_blocks[b].high[lane];
             auto const low_now = row_now(low), high_now = row_now(high);
             auto const* const from = former_history.data() + b * columns_ * block + lane;
-            std::size_t const to = low_now < frame.rows() && high_now < frame.rows() ? find_near(low_now, high_now) : pairs_;
+            std::size_t const to =
+                low_now < frame.rows() && high_now < frame.rows() ? find_near(low_now, high_now) : pairs_;
             if (to == pairs_) {
                 // Ended, or gone to another rank, which has a copy.
                 bool const here = low_now < frame.owned || high_now < frame.owned;

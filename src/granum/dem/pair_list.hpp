@@ -38,7 +38,8 @@ class PairList
     {
         for (std::size_t b = 0; b < blocks_.size(); ++b)
             for (std::size_t lane = 0; lane < kernel::block; ++lane)
-                if ((touching_[b] >> lane & 1) != 0) what(blocks_[b].low[lane], blocks_[b].high[lane], history(b, lane));
+                if ((touching_[b] >> lane & 1) != 0)
+                    what(blocks_[b].low[lane], blocks_[b].high[lane], history(b, lane));
     }
 
     void run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain, double dt,

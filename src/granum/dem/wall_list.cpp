@@ -38,7 +38,8 @@ void WallList::make(Frame const& frame, std::vector<geometry::Wall> const& walls
     overlap_.assign(places, 0.0);
     touching_.assign(places / block, 0);
     for (std::size_t d = 0; d < 3; ++d)
-        for (auto* numbers : {&normal_[d], &velocity_[d], &spin_[d], &force_[d], &torque_[d]}) numbers->assign(places, 0.0);
+        for (auto* numbers : {&normal_[d], &velocity_[d], &spin_[d], &force_[d], &torque_[d]})
+            numbers->assign(places, 0.0);
     for (auto const& [row, wall, history] : known) {
         if (find(row, wall) < size_)
             set(row, wall, history);

@@ -74,8 +74,8 @@ std::vector<int> Partition::near(int rank, double reach) const
             double gap = std::max({part.lower[d] - mine.upper[d], mine.lower[d] - part.upper[d], 0.0});
             if (space_.periodic[d])
                 for (double const by : {length, -length})
-                    gap = std::min(gap, std::max({part.lower[d] + by - mine.upper[d],
-                                                  mine.lower[d] - part.upper[d] - by, 0.0}));
+                    gap = std::min(
+                        gap, std::max({part.lower[d] + by - mine.upper[d], mine.lower[d] - part.upper[d] - by, 0.0}));
             close = close && gap < reach;
         }
         if (close) out.push_back(other);

@@ -55,7 +55,7 @@ class Partition
     struct Cut
     {
         std::size_t direction = 0;
-        double at = 0;             // m
+        double at = 0;              // m
         int first = 0, behind = 0;  // cut to go on with below and from `at` on; -1 - rank where a rank's part begins
     };
     struct Balance;

@@ -28,7 +28,7 @@ dem::Frame cloud(Vec3 const& box, double smallest, std::uint32_t seed)
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> plain_double_loop(dem::Frame const& frame, dem::Domain const& domain,
-                                                                     double skin)
+                                                                    double skin)
 {
     std::set<std::pair<std::uint32_t, std::uint32_t>> out;
     for (std::uint32_t a = 0; a < frame.rows(); ++a)
@@ -49,7 +49,8 @@ TEST(NeighbourSearch, finds_exactly_the_pairs_of_the_plain_double_loop_from_low_
         for (int periodic = 0; periodic < 8; ++periodic)
             for (Vec3 const box : {Vec3{0.02, 0.01, 0.04}, Vec3{0.006, 0.05, 0.0047}, Vec3{0.1, 0.1, 0.3}}) {
                 auto const frame = cloud(box, smallest, static_cast<std::uint32_t>(periodic));
-                dem::Domain const domain{{0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
+                dem::Domain const domain{
+                    {0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
                 dem::NeighbourSearch search;
                 dem::Candidates found;
                 search.find(frame, domain, 0.5 * box, skin, 0.2 * skin, found);

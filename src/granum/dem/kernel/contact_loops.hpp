@@ -139,8 +139,7 @@ HWY_FLATTEN void laws_of(Rules const& rules, Staged& contact)
     Lanes stiffness = 0.0, stored = 0.0;
     if constexpr (Ledger) stiffness = history[columns - 2];
     auto const normal = normal_law(pair, at);
-    auto const slide =
-        tangential_law(pair, at, normal, n, contact.velocity - at.speed * n, history, stored, stiffness);
+    auto const slide = tangential_law(pair, at, normal, n, contact.velocity - at.speed * n, history, stored, stiffness);
     auto const roll = rolling_law(pair, at, normal, n, contact.spin, history + Tangential::history);
     contact.tangential = kept(contact.touch, slide.force);
     contact.rolling = kept(contact.touch, roll.torque);
@@ -149,8 +148,8 @@ HWY_FLATTEN void laws_of(Rules const& rules, Staged& contact)
         // The speed at the end of the step, where the force is: half a step more of this contact's acceleration.
         Lanes const speed = at.speed + Lanes(0.5) * at.step * normal.force * at.inverse_mass;
         stored += roll.energy;
-        contact.dissipated = (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work +
-                             history[columns - 1] - stored;
+        contact.dissipated =
+            (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work + history[columns - 1] - stored;
         contact.elastic = normal.energy + stored;
         history[columns - 2] = stiffness, history[columns - 1] = stored;
     }
@@ -388,8 +387,7 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
         for (std::size_t row = 0; row < in.rows; ++row) {
             Body& body = in.bodies[row];
             Sum& sum = in.sums[row];
-            auto const acceleration =
-                hn::MulAdd(hn::Load(d, sum.force + c), hn::Set(d, body.inverse_mass), gravity);
+            auto const acceleration = hn::MulAdd(hn::Load(d, sum.force + c), hn::Set(d, body.inverse_mass), gravity);
             auto const turning = hn::Set(d, in.half * 2.5 * body.inverse_mass / (body.radius * body.radius));
             auto velocity = hn::Load(d, body.velocity + c), spin = hn::Load(d, body.spin + c);
             auto const torque = hn::Load(d, sum.torque + c);

@@ -89,10 +89,10 @@ struct WallPass
     std::size_t blocks;
     std::uint32_t const* row;
     std::uint8_t const* wall_material;
-    double const* overlap;       //!< m; not above zero: no touch
-    double const* normal[3];     //!< to the granule
-    double const* velocity[3];   //!< of the surface at the contact, m/s
-    double const* spin[3];       //!< of the wall, rad/s
+    double const* overlap;      //!< m; not above zero: no touch
+    double const* normal[3];    //!< to the granule
+    double const* velocity[3];  //!< of the surface at the contact, m/s
+    double const* spin[3];      //!< of the wall, rad/s
     double* history;
     std::uint8_t* touching;
     double dt;

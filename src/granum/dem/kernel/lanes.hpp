@@ -120,7 +120,8 @@ HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
 HWY_INLINE Lanes sqrt(Lanes a)
 {
     Lanes const r = reciprocal_sqrt(a);
-    return Register{_mm512_maskz_mul_pd(_mm512_cmp_pd_mask(a.v.raw, _mm512_setzero_pd(), _CMP_GT_OQ), a.v.raw, r.v.raw)};
+    return Register{
+        _mm512_maskz_mul_pd(_mm512_cmp_pd_mask(a.v.raw, _mm512_setzero_pd(), _CMP_GT_OQ), a.v.raw, r.v.raw)};
 }
 #else
 HWY_INLINE Lanes reciprocal(Lanes a)
@@ -150,8 +151,7 @@ struct Addresses
 
     HWY_INLINE Addresses(double* base, std::size_t stride, std::uint32_t const* rows)
     {
-        for (std::size_t lane = 0; lane < width; ++lane)
-            at[lane] = base + stride / sizeof(double) * rows[lane];
+        for (std::size_t lane = 0; lane < width; ++lane) at[lane] = base + stride / sizeof(double) * rows[lane];
     }
 };
 
@@ -166,7 +166,8 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
     __m512d const r0 = both(0), r1 = both(1), r2 = both(2), r3 = both(3);
     __m512d const xz0 = _mm512_unpacklo_pd(r0, r1), yw0 = _mm512_unpackhi_pd(r0, r1);
     __m512d const xz1 = _mm512_unpacklo_pd(r2, r3), yw1 = _mm512_unpackhi_pd(r2, r3);
-    __m512i const low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    __m512i const low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                  high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
     out[0] = Register{_mm512_permutex2var_pd(xz0, low, xz1)};
     out[1] = Register{_mm512_permutex2var_pd(yw0, low, yw1)};
     out[2] = Register{_mm512_permutex2var_pd(xz0, high, xz1)};
@@ -187,13 +188,14 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
 #endif
 }
 
-// Adds a force and a torque to each row of eight numbers (the fourth and the eighth stay), one row after the other: rows
-// may be the same.
+// Adds a force and a torque to each row of eight numbers (the fourth and the eighth stay), one row after the other:
+// rows may be the same.
 HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Triple<Lanes> const& torque)
 {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     __m512d const zero = _mm512_setzero_pd();
-    __m512i const even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    __m512i const even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                  odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
     // Of four rows of x y z 0 each register holds one in its lower and one in its upper half: 0 4, 1 5, 2 6, 3 7.
     auto const turned = [&](Triple<Lanes> const& in, __m512d* out) {
         __m512d const x = in.x.v.raw, y = in.y.v.raw, z = in.z.v.raw;

@@ -50,8 +50,7 @@ Answer laws(Rules const& rules, Pair<double> const& pair, Approach<double> const
     auto const& rolling_law = *static_cast<Rolling const*>(rules.rolling);
     double stored = 0, stiffness = rules.ledger ? history[rules.columns - 2] : 0;
     auto const normal = normal_law(pair, at);
-    auto const slide =
-        tangential_law(pair, at, normal, n, velocity - at.speed * n, history, stored, stiffness);
+    auto const slide = tangential_law(pair, at, normal, n, velocity - at.speed * n, history, stored, stiffness);
     auto const roll = rolling_law(pair, at, normal, n, spin, history + Tangential::history);
     Answer out{normal.force * n + slide.force, slide.force, roll.torque};
     if (rules.ledger) {

@@ -28,8 +28,7 @@ struct HertzTsuji
         Real const elastic = Real(4.0 / 3.0) * pair.youngs_modulus * contact_radius * at.overlap;
         Real damped_radius = contact_radius;
         if (any(just_touched(at))) damped_radius = sqrt(at.radius * damped_overlap(at));
-        Real const coefficient =
-            Real(2) * pair.damping * sqrt(Real(2) * pair.youngs_modulus * at.mass * damped_radius);
+        Real const coefficient = Real(2) * pair.damping * sqrt(Real(2) * pair.youngs_modulus * at.mass * damped_radius);
         return {spring_and_dashpot(at, elastic, coefficient, 1.25, attraction), elastic,
                 Real(0.4) * elastic * at.overlap, Real(8) * pair.shear_modulus * contact_radius};
     }

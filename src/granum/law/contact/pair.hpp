@@ -50,13 +50,13 @@ struct Pair
 template <class Real>
 struct Approach
 {
-    Real overlap;  //!< m, >= 0
-    Real radius;   //!< R* = R_i R_j / (R_i + R_j), m
-    Real mass;     //!< m* = m_i m_j / (m_i + m_j), kg
+    Real overlap;                          //!< m, >= 0
+    Real radius;                           //!< R* = R_i R_j / (R_i + R_j), m
+    Real mass;                             //!< m* = m_i m_j / (m_i + m_j), kg
     Real inverse_mass = reciprocal(mass);  //!< 1/kg
-    Real inertia;  //!< I_i I_j / (I_i + I_j) with I = 1.4 m R^2 about the contact point, kg m2
-    Real speed;    //!< relative velocity along the normal in the middle of the last step, positive when they part, m/s
-    Real step;     //!< length of the last step, s; 0: forces only, histories stay
+    Real inertia;                          //!< I_i I_j / (I_i + I_j) with I = 1.4 m R^2 about the contact point, kg m2
+    Real speed;  //!< relative velocity along the normal in the middle of the last step, positive when they part, m/s
+    Real step;   //!< length of the last step, s; 0: forces only, histories stay
 };
 
 //! Answer of a normal law.

@@ -1,0 +1,230 @@
+// Every instruction set against the plain loops, over random contacts: forces and torques to 1e-12 of the force at an
+// overlap of a thousandth of the radius, energies and histories likewise, and the motion of rows.
+#include "granum/dem/frame.hpp"
+#include "granum/dem/kernel/kernel.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace granum;
+using namespace granum::dem;
+using kernel::block;
+
+double between(double low, double high)
+{
+    return low + (high - low) * (*rc::gen::inRange(0, 1'000'001)) * 1e-6;
+}
+
+Vec3 direction()
+{
+    Vec3 const v{between(-1, 1), between(-1, 1), between(-1, 1)};
+    return v / std::max(norm(v), 1e-3);
+}
+
+// Pairs that touch, nearly touch or do not, a few of them sharing granules; one to three materials.
+struct Contacts
+{
+    Laws laws;
+    Frame frame;
+    std::vector<law::contact::Pair<double>> pairings;
+    kernel::Rules rules;
+    base::AlignedVector<kernel::PairBlock> pairs;
+    base::AlignedVector<double> history;
+    std::vector<std::uint8_t> touching;
+    double unit = 0;  // force at an overlap of 1e-3 R of the smallest granule, N
+
+    Contacts()
+    {
+        using namespace law::contact;
+        laws.normal = *NormalLaws::make(*rc::gen::elementOf(NormalLaws::names()));
+        laws.tangential = *TangentialLaws::make(*rc::gen::elementOf(TangentialLaws::names()));
+        laws.rolling = *RollingLaws::make(*rc::gen::elementOf(RollingLaws::names()));
+        auto const materials = static_cast<std::uint32_t>(*rc::gen::inRange(1, 4));
+        for (std::uint32_t m = 0; m < materials; ++m)
+            laws.add({.youngs_modulus = std::pow(10, between(6, 9)), .poisson_ratio = between(0.1, 0.45)});
+        for (std::uint32_t a = 0; a < materials; ++a)
+            for (std::uint32_t b = a; b < materials; ++b)
+                laws.pair(a, b,
+                          {.restitution = between(0.2, 1),
+                           .sliding_friction = between(0, 1),
+                           .rolling_friction = between(0, 0.3),
+                           .rolling_damping = between(0, 0.5)});
+        for (std::uint32_t a = 0; a < materials; ++a)
+            for (std::uint32_t b = 0; b < materials; ++b) pairings.push_back(laws.effective(a, b));
+        auto const columns = [](auto const& law) {
+            return std::visit([](auto const& one) { return static_cast<std::size_t>(one.history); }, law);
+        };
+        auto const address = [](auto const& law) {
+            return std::visit([](auto const& one) -> void const* { return &one; }, law);
+        };
+        bool const ledger = *rc::gen::arbitrary<bool>();
+        rules = {.normal_index = laws.normal.index(),
+                 .tangential_index = laws.tangential.index(),
+                 .rolling_index = laws.rolling.index(),
+                 .normal = address(laws.normal),
+                 .tangential = address(laws.tangential),
+                 .rolling = address(laws.rolling),
+                 .pairs = pairings.data(),
+                 .materials = materials,
+                 .lever_shift = *rc::gen::element(0.0, 0.5),
+                 .inertia = true,
+                 .ledger = ledger,
+                 .columns = columns(laws.tangential) + columns(laws.rolling) + (ledger ? 2 : 0)};
+        place(static_cast<std::size_t>(*rc::gen::inRange(1, 40)), materials);
+    }
+
+    void place(std::size_t count, std::uint32_t materials)
+    {
+        particle::Store granules;
+        granules.keep({false, false, false});
+        granules.resize(2 * count);
+        granules.owned = 2 * count;
+        double const radius = std::pow(10, between(-4, -2)), speed = between(0, 2);
+        std::size_t const blocks = (count + block - 1) / block;
+        pairs.resize(blocks);
+        for (std::size_t k = 0; k < 2 * count; ++k) {
+            granules.id[k] = k;
+            granules.radius[k] = radius * between(1, 4);
+            granules.mass[k] = 2000 * std::pow(granules.radius[k], 3);
+            granules.velocity[k] = speed * direction();
+            granules.spin[k] = speed / radius * direction();
+            granules.material[k] = static_cast<std::uint32_t>(*rc::gen::inRange(0u, materials));
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            double const overlap = std::pow(10, between(-8, -1)) * *rc::gen::element(1.0, 1.0, 1.0, -1.0);
+            double const reach = granules.radius[2 * k] + granules.radius[2 * k + 1];
+            granules.position[2 * k] = {20.0 * static_cast<double>(k) * radius, between(0, 1), 0};
+            granules.position[2 * k + 1] = granules.position[2 * k] + reach * (1 - 0.25 * overlap) * direction();
+        }
+        frame.scale_to(laws);
+        frame.take(granules);
+        unit = frame.unit_force * (frame.unit_power == 2 ? radius * radius : radius);
+        history.assign(blocks * rules.columns * block, 0.0);
+        touching.assign(blocks, 0);
+        for (std::size_t k = 0; k < blocks * block; ++k) {
+            bool const real = k < count;
+            pairs[k / block].low[k % block] = real ? static_cast<std::uint32_t>(2 * k) : frame.lonely();
+            pairs[k / block].high[k % block] = real ? static_cast<std::uint32_t>(2 * k + 1) : frame.lonely() + 1;
+        }
+    }
+
+    kernel::PairPass pass(double dt)
+    {
+        return {.rules = &rules,
+                .bodies = frame.bodies.data(),
+                .material = rules.materials > 1 ? frame.material.data() : nullptr,
+                .sums = frame.sums.data(),
+                .blocks = pairs.size(),
+                .pairs = pairs.data(),
+                .image = nullptr,
+                .shifts = nullptr,
+                .history = history.data(),
+                .touching = touching.data(),
+                .owned = frame.owned - 1,
+                .dt = dt};
+    }
+};
+
+RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
+{
+    Contacts contacts;
+    double const dt = std::pow(10, between(-7, -5));
+    int const steps = *rc::gen::inRange(1, 6);
+    for (auto const* fast : kernel::kernels()) {
+        // Copies of the numbers; the laws stay where they are.
+        auto bodies = contacts.frame.bodies;
+        auto history = contacts.history;
+        auto touching = contacts.touching;
+        auto sums = contacts.frame.sums;
+        auto plain_history = history;
+        auto plain_touching = touching;
+        for (int step = 0; step < steps; ++step) {
+            // Histories follow the plain loops, so that each step is compared by itself.
+            history = plain_history;
+            touching = plain_touching;
+            auto plain_sums = contacts.frame.sums;
+            sums = plain_sums;
+            auto pass = contacts.pass(dt);
+            pass.bodies = bodies.data();
+            kernel::Seen seen, plain;
+            pass.sums = sums.data(), pass.history = history.data(), pass.touching = touching.data();
+            fast->pairs(pass, seen);
+            pass.sums = plain_sums.data(), pass.history = plain_history.data(), pass.touching = plain_touching.data();
+            kernel::scalar().pairs(pass, plain);
+            RC_ASSERT(touching == plain_touching);
+            RC_ASSERT(seen.contacts == plain.contacts);
+            RC_ASSERT(std::abs(seen.largest_overlap - plain.largest_overlap) <= 1e-14);
+            double largest = 0;
+            for (std::size_t row = 0; row < contacts.frame.owned; ++row) {
+                double const radius = bodies[row].radius;
+                for (std::size_t d = 0; d < 3; ++d) {
+                    double const force = plain_sums[row].force[d];
+                    largest = std::max(largest, std::abs(force));
+                    // Of a large force the last digits count, of a small one the quantum of its granule.
+                    double const grain = 1e-12 * (contacts.unit + std::abs(force)) + bodies[row].rounder * 0x1p-52;
+                    RC_ASSERT(std::abs(sums[row].force[d] - force) <= grain + 4e-13 * largest);
+                    RC_ASSERT(std::abs(sums[row].torque[d] - plain_sums[row].torque[d]) <=
+                              radius * (grain + 4e-13 * largest));
+                }
+            }
+            double const energy =
+                contacts.unit * bodies[0].radius + std::abs(plain.elastic) + std::abs(plain.dissipated);
+            RC_ASSERT(std::abs(seen.elastic - plain.elastic) <= 1e-11 * energy);
+            RC_ASSERT(std::abs(seen.dissipated - plain.dissipated) <= 1e-11 * energy);
+            for (std::size_t b = 0; b < bodies.size() - 2; ++b)
+                for (std::size_t d = 0; d < 3; ++d) bodies[b].position[d] += dt * bodies[b].velocity[d];
+        }
+    }
+}
+
+TEST(Kernels, are_named_fastest_first_and_end_with_the_plain_loops)
+{
+    auto const here = kernel::kernels();
+    ASSERT_GE(here.size(), 1u);
+    EXPECT_EQ(here.back()->name, "scalar");
+    for (auto const* kernel : here) EXPECT_EQ(kernel::find_kernel(kernel->name), kernel);
+    EXPECT_EQ(kernel::find_kernel("altivec"), nullptr);
+}
+
+TEST(Kernels, move_rows_alike_and_see_a_number_that_is_not_finite)
+{
+    for (auto const* kernel : kernel::kernels())
+        for (int kicks : {0, 1, 2}) {
+            base::AlignedVector<kernel::Body> bodies(5), plain_bodies;
+            base::AlignedVector<kernel::Sum> sums(5), plain_sums;
+            for (std::size_t row = 0; row < 5; ++row) {
+                auto& body = bodies[row];
+                body = {{0.1 * static_cast<double>(row), 0.2, 0.3}, 1e-3, {1, -2, 0.5}, 1e6, {10, 20, -30}, 1};
+                sums[row] = {{1e-5, 2e-5, -1e-6 * static_cast<double>(row), 0}, {1e-9, -2e-9, 3e-9, 0}};
+            }
+            plain_bodies = bodies, plain_sums = sums;
+            kernel::Motion motion{
+                .rows = 5, .gravity = {0, 1, -9.81}, .half = 5e-6, .drift = 1e-5, .kicks = kicks, .clear = true};
+            kernel::MotionSeen seen, plain;
+            motion.bodies = bodies.data(), motion.sums = sums.data();
+            kernel->move(motion, seen);
+            motion.bodies = plain_bodies.data(), motion.sums = plain_sums.data();
+            kernel::scalar().move(motion, plain);
+            for (std::size_t row = 0; row < 5; ++row) {
+                for (std::size_t d = 0; d < 3; ++d) {
+                    EXPECT_NEAR(bodies[row].position[d], plain_bodies[row].position[d], 1e-16);
+                    EXPECT_NEAR(bodies[row].velocity[d], plain_bodies[row].velocity[d], 1e-14);
+                    EXPECT_NEAR(bodies[row].spin[d], plain_bodies[row].spin[d], 1e-13);
+                    EXPECT_EQ(sums[row].force[d], 0);
+                }
+                EXPECT_EQ(bodies[row].radius, 1e-3);
+                EXPECT_EQ(bodies[row].inverse_mass, 1e6);
+            }
+            EXPECT_TRUE(seen.finite);
+            EXPECT_GE(seen.fastest2, plain.fastest2 * (1 - 1e-12));
+            bodies[3].velocity[1] = std::nan("");
+            motion.bodies = bodies.data(), motion.sums = sums.data();
+            kernel->move(motion, seen);
+            EXPECT_FALSE(seen.finite) << kernel->name;
+        }
+}
+}
