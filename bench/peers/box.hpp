@@ -5,6 +5,7 @@
 #include "peers/state.hpp"
 
 #include <memory>
+#include <string>
 
 namespace granum::peers
 {
@@ -17,18 +18,24 @@ struct Touching
     double restitution = 0.8, sliding_friction = 0.3, rolling_friction = 0.1;
 };
 
+//! How the engine works.
+struct Engine
+{
+    double skin = 0;             //!< of the neighbour list, m; 0: its own choice
+    std::string kernel;          //!< instruction set; empty: the fastest here
+    bool energy_ledger = false;  //!< the peers keep none
+};
+
 //! Granules of this rank and the engine that moves them. Five planes: a floor at z = 0 and four sides, of the spheres'
 //! own material (E 1e7 Pa, nu 0.25); open above.
 struct Box
 {
     particle::Store granules;
-    par::Slabs slabs;
     std::unique_ptr<dem::Engine> engine;
     long total = 0;  //!< granules on all ranks
 
-    //! The state tiled tiles_x by tiles_y times, and the first forces. `skin` in m, 0: the engine's own choice.
-    //! Collective.
-    Box(State const& state, long tiles_x, long tiles_y, Touching const& touching, double skin,
+    //! The state tiled tiles_x by tiles_y times, and the first forces. Collective.
+    Box(State const& state, long tiles_x, long tiles_y, Touching const& touching, Engine const& how,
         par::Communicator const& comm);
 
     //! Of translation, on all ranks, J. Collective.

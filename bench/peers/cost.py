@@ -21,8 +21,8 @@ SIZES = 20_000
 # name: state, tiles, ranks, steps before, timed steps
 RUNS = {"100,000": ("packed", (1, 5), 1, 50, 200), "100,000 on two": ("packed", (1, 5), 2, 50, 200),
         "1,000,000": ("packed", (5, 10), 1, 10, 30), "one size": ("packed", (1, 1), 1, 200, 600),
-        "five sizes": ("sizes", (1, 1), 1, 200, 600)}
-COUNT = {"100,000": 100_000, "100,000 on two": 100_000, "1,000,000": 1_000_000, "one size": 20_000}
+        "five sizes": ("sizes", (1, 1), 1, 200, 600), "100,000, energy ledger": ("packed", (1, 5), 1, 50, 200)}
+COUNT = {"100,000": 100_000, "100,000, energy ledger": 100_000, "100,000 on two": 100_000, "1,000,000": 1_000_000, "one size": 20_000}
 TEN_MILLION = ("packed", states.TILES[10_000_000], 1, 0, 100)
 
 
@@ -43,7 +43,7 @@ def timed(name, spec, folder):
     case, tiles, ranks, warm, steps = spec
     path = state(case, folder)
     count = COUNT.get(name) or 10_000_000 if case == "packed" else len(states.read(path)[1])
-    result = programs.granum(path, tiles, warm, steps, folder, ranks)
+    result = programs.granum(path, tiles, warm, steps, folder, ranks, ["--ledger"] if "ledger" in name else [])
     each = result["loop"] / (steps * count)
     return {**result, "count": count, "each": each, "contact": each / (0.5 * result["coordination"])}
 
@@ -116,8 +116,10 @@ class Cost:
                        f"| {max(run['memory'] for run in runs) / one['count']:,.0f} "
                        f"| {100 * min(run['busy'] for run in runs):.0f} % |")
         every = self.triad.median * self.spread("1,000,000", "each", 1e9).median
-        out += ["", f"In the time of a granule-step at 1,000,000 one core's memory could have moved {every:,.0f} bytes; the "
-                    f"roofline counts {BYTES}."]
+        ledger = self.ratio("100,000, energy ledger", "100,000", "each")
+        out += ["", f"With the energy ledger a step takes {ledger.text()} times as long as without.",
+                f"In the time of a granule-step at 1,000,000 one core's memory could have moved {every:,.0f} bytes; the "
+                f"roofline counts {BYTES}."]
         return out
 
 

@@ -26,7 +26,8 @@ struct Options
     std::string state, out;
     std::vector<long> tiles{1, 1};
     long warm = 0, steps = 0, granules = 20000, settle = 25000;
-    double dt = 1e-5, skin = 0;
+    double dt = 1e-5;
+    peers::Engine engine;
     bool cut_attraction = false, lever_radius = false, no_rolling = false;
     double friction = 0.3;
 
@@ -50,13 +51,13 @@ long peak_memory()
 
 void advance(peers::Box& box, double dt, long steps)
 {
-    for (long k = 0; k < steps; ++k) box.engine->step(box.granules, dt);
+    box.engine->advance(box.granules, dt, static_cast<int>(steps));
 }
 
 void time_steps(Options const& options, par::Communicator const& comm)
 {
     auto const state = peers::read_state(options.state);
-    peers::Box box(state, options.tiles[0], options.tiles[1], options.touching(), options.skin, comm);
+    peers::Box box(state, options.tiles[0], options.tiles[1], options.touching(), options.engine, comm);
     advance(box, options.dt, options.warm);
     long const built_before = box.engine->watch().rebuilds;
     comm.barrier();
@@ -70,16 +71,16 @@ void time_steps(Options const& options, par::Communicator const& comm)
     if (comm.root())
         fmt::print(
             "peer=granum granules={} ranks={} steps={} loop={:.6f} builds={} coordination={:.4f} ke={:.6g} "
-            "memory={}\n",
+            "memory={} kernel={}\n",
             box.total, comm.size(), options.steps, seconds, box.engine->watch().rebuilds - built_before, coordination,
-            energy, memory);
+            energy, memory, box.engine->kernel());
 }
 
 void write_forces(Options const& options, par::Communicator const& comm)
 {
     base::require(comm.size() == 1, "forces are written on one rank, not on {}", comm.size());
     auto const state = peers::read_state(options.state);
-    peers::Box box(state, 1, 1, options.touching(), options.skin, comm);
+    peers::Box box(state, 1, 1, options.touching(), options.engine, comm);
     advance(box, options.dt, options.steps);
     std::vector<std::size_t> rows(box.granules.owned);
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = k;
@@ -87,7 +88,9 @@ void write_forces(Options const& options, par::Communicator const& comm)
     std::ofstream file(options.out);
     file << "id,fx,fy,fz,tx,ty,tz\n";
     for (auto const row : rows) {
-        auto const &f = box.granules.force[row], &t = box.granules.torque[row];
+        // The column is of contacts alone; LAMMPS' force has the weight in it.
+        auto const f = box.granules.force[row] + box.granules.mass[row] * box.engine->settings().gravity;
+        auto const& t = box.granules.torque[row];
         file << fmt::format("{},{},{},{},{},{},{}\n", box.granules.id[row], f.x, f.y, f.z, t.x, t.y, t.z);
     }
     if (!file.flush()) throw base::IoError(fmt::format("{}: cannot be written", options.out));
@@ -99,7 +102,7 @@ void make_sizes(Options const& options, par::Communicator const& comm)
     auto state = peers::five_sizes(options.granules);
     peers::Touching slippery = options.touching();
     slippery.restitution = 0.3, slippery.sliding_friction = 0.05, slippery.rolling = false;
-    peers::Box box(state, 1, 1, slippery, options.skin, comm);
+    peers::Box box(state, 1, 1, slippery, options.engine, comm);
     advance(box, options.dt, options.settle);
     for (std::size_t row = 0; row < box.granules.owned; ++row) {
         auto& sphere = state.spheres[box.granules.id[row] - 1];
@@ -129,13 +132,16 @@ int run(int argc, char** argv)
         ->expected(2)
         ->check(CLI::PositiveNumber);
     time->add_option("--warm", options.warm, "steps before the timed ones")->check(CLI::NonNegativeNumber);
+    time->add_flag("--ledger", options.engine.energy_ledger, "account for the energy of contacts, as no peer does");
     forces->add_flag("--lever-radius", options.lever_radius, "forces act at the radius, not at the contact point");
     sizes->add_option("--granules", options.granules, "how many")->check(CLI::Range(1000, 200000));
     sizes->add_option("--settle", options.settle, "steps to settle")->check(CLI::NonNegativeNumber);
+    for (auto* const verb : {time, forces})
+        verb->add_option("--kernel", options.engine.kernel, "avx512, avx2, sse4, scalar or reference");
     for (auto* const verb : {forces, sizes}) verb->add_option("--out", options.out, "file to write")->required();
     for (auto* const verb : {time, forces, sizes}) {
         verb->add_option("--dt", options.dt, "step, s")->check(CLI::PositiveNumber);
-        verb->add_option("--skin", options.skin, "of the neighbour list, m; 0: chosen by the engine")
+        verb->add_option("--skin", options.engine, "of the neighbour list, m; 0: chosen by the engine")
             ->check(CLI::NonNegativeNumber);
     }
     CLI11_PARSE(program, argc, argv);
