@@ -15,7 +15,7 @@
 namespace granum::dem
 {
 //! What a contact remembers: as many numbers as its laws say, the others zero.
-using History = std::array<double, 8>;
+using History = std::array<double, 10>;
 
 class PairList
 {

@@ -35,7 +35,7 @@ struct Contacts
     base::AlignedVector<kernel::PairBlock> pairs;
     base::AlignedVector<double> history;
     std::vector<std::uint8_t> touching;
-    double unit = 0;  // force at an overlap of 1e-3 R of the smallest granule, N
+    double smallest = 0, unit = 0;  // radius, m, and its force at an overlap of a thousandth, N
 
     Contacts()
     {
@@ -102,6 +102,7 @@ struct Contacts
         }
         frame.scale_to(laws);
         frame.take(granules);
+        smallest = radius;
         unit = frame.unit_force * (frame.unit_power == 2 ? radius * radius : radius);
         history.assign(blocks * rules.columns * block, 0.0);
         touching.assign(blocks, 0);
@@ -158,18 +159,20 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
             RC_ASSERT(touching == plain_touching);
             RC_ASSERT(seen.contacts == plain.contacts);
             RC_ASSERT(std::abs(seen.largest_overlap - plain.largest_overlap) <= 1e-14);
-            double largest = 0;
             for (std::size_t row = 0; row < contacts.frame.owned; ++row) {
-                double const radius = bodies[row].radius;
-                for (std::size_t d = 0; d < 3; ++d) {
-                    double const force = plain_sums[row].force[d];
-                    largest = std::max(largest, std::abs(force));
-                    // Of a large force the last digits count, of a small one the quantum of its granule.
-                    double const grain = 1e-12 * (contacts.unit + std::abs(force)) + bodies[row].rounder * 0x1p-52;
-                    RC_ASSERT(std::abs(sums[row].force[d] - force) <= grain + 4e-13 * largest);
-                    RC_ASSERT(std::abs(sums[row].torque[d] - plain_sums[row].torque[d]) <=
-                              radius * (grain + 4e-13 * largest));
-                }
+                auto const force = [](kernel::Sum const& sum) { return Frame::vec(sum.force); };
+                auto const torque = [](kernel::Sum const& sum) { return Frame::vec(sum.torque); };
+                // The force at an overlap of a thousandth of this radius, or what the spring has at the true overlap
+                // where that is larger (the dashpot may take most of it away), and what is rounded the other way.
+                double const radius = bodies[row].radius, ratio = radius / contacts.smallest;
+                double const reference = contacts.unit * (contacts.frame.unit_power == 2 ? ratio * ratio : ratio);
+                double const apart = norm(Frame::vec(bodies[row].position) - Frame::vec(bodies[row ^ 1].position));
+                double const deep = std::max(0.0, 1e3 * (radius + bodies[row ^ 1].radius - apart) / radius);
+                double const spring = reference * (contacts.frame.unit_power == 2 ? std::pow(deep, 1.5) : deep);
+                double const grain = 1e-12 * std::max({reference, spring, norm(force(plain_sums[row]))}) +
+                                     2 * bodies[row].rounder * 0x1p-52;
+                RC_ASSERT(norm(force(sums[row]) - force(plain_sums[row])) <= grain);
+                RC_ASSERT(norm(torque(sums[row]) - torque(plain_sums[row])) <= radius * grain);
             }
             double const energy =
                 contacts.unit * bodies[0].radius + std::abs(plain.elastic) + std::abs(plain.dissipated);

@@ -253,7 +253,9 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
                     for (std::size_t d = 0; d < 3; ++d) by[d][lane] = in.shifts[in.image[b * block + s + lane]][d];
                 apart = apart + Triple<Lanes>{load(by[0]), load(by[1]), load(by[2])};
             }
-            Lanes const distance2 = norm2(apart), reach = low.radius + high.radius;
+            // Rounded as in the plain loops to the last bit: the overlap is what little is left of the distance.
+            Lanes const distance2 = apart.x * apart.x + (apart.y * apart.y + apart.z * apart.z);
+            Lanes const reach = low.radius + high.radius;
             Mask const touch = distance2 < reach * reach;
             unsigned const bits = touch.bits();
             if (rules.ledger && (before >> s & ~bits & ((1u << width) - 1)) != 0)
@@ -266,11 +268,11 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
             tally.contacts += __builtin_popcount(bits);
             low.look();
             high.look();
-            Lanes const inverse = reciprocal_sqrt(distance2);
-            Triple<Lanes> const n = inverse * apart;
+            Lanes const distance = exact_sqrt(distance2);
+            Triple<Lanes> const n = reciprocal(distance) * apart;
             Lanes const smaller = min(low.radius, high.radius);
             // Lanes that do not touch compute something harmless and are dropped.
-            Lanes const overlap = select(touch, reach - distance2 * inverse, Lanes(1e-3) * smaller);
+            Lanes const overlap = select(touch, reach - distance, Lanes(1e-3) * smaller);
             tally.overlap(touch, overlap, smaller);
             Lanes const lever_low = low.radius - shift * overlap, lever_high = high.radius - shift * overlap;
             Triple<Lanes> const velocity =

@@ -138,6 +138,10 @@ HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
 }
 #endif
 
+HWY_INLINE Lanes exact_sqrt(Lanes a)
+{
+    return hn::Sqrt(a.v);
+}
 HWY_INLINE Lanes power_of_two_below(Lanes a)
 {
     hn::RebindToUnsigned<Tag> const bits;
