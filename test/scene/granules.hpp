@@ -62,7 +62,7 @@ struct Scene
 
     void add_plane(Vec3 const& point, Vec3 const& normal)
     {
-        settings.walls.push_back({geometry::Plane{point, normal}, 1});
+        settings.walls.push_back({.name = "plane", .shapes = {geometry::Plane{point, normal}}, .material = 1});
     }
 
     //! A box open to nothing: six planes, and the domain to match.

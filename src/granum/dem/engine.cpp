@@ -39,7 +39,8 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
       domain{settings.lower, settings.upper, settings.periodic},
       comm(communicator),
       halo(std::move(partition), communicator),
-      kernel(settings.kernel.empty() ? kernel::kernels().front() : kernel::find_kernel(settings.kernel))
+      kernel(settings.kernel.empty() ? kernel::kernels().front() : kernel::find_kernel(settings.kernel)),
+      walls(settings.walls, domain)
 {
     base::require(kernel != nullptr, "this processor has no kernel called \"{}\"", settings.kernel);
     auto const& laws = settings.laws;
@@ -58,7 +59,7 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
              .ledger = settings.energy_ledger,
              .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0)};
     pairs.shape(rules.columns);
-    walls.shape(rules.columns);
+    walls.shape(rules.columns, rules.ledger);
     frame.scale_to(laws);
 }
 
@@ -101,7 +102,7 @@ void Engine::Inside::name_overlap()
         if (double const overlap = walls.overlap(k) / frame.radius(walls.row(k)); overlap > worst) {
             worst = overlap;
             who = fmt::format("granule {} is {:.0f} % of its radius in wall {}", frame.id[walls.row(k)], 100 * overlap,
-                              walls.wall(k));
+                              walls.body(k));
         }
     failure = fmt::format(
         "{} at step {}: the time step is too long, the stiffness too low or granules were placed into each other", who,
@@ -113,7 +114,7 @@ void Engine::Inside::forces(double dt)
     auto const timing = stopwatch.time(Stage::contacts);
     kernel::Seen seen;
     pairs.run(*kernel, rules, frame, domain, dt, seen);
-    walls.run(*kernel, rules, frame, settings.walls, dt, seen);
+    walls.run(*kernel, rules, frame, dt, seen, comm);
     watch.largest_overlap = std::max(watch.largest_overlap, seen.largest_overlap);
     if (seen.largest_overlap > settings.warn_overlap) ++watch.warned_overlaps;
     watch.contacts = seen.contacts;
@@ -202,8 +203,8 @@ void Engine::prepare(particle::Store& granules)
     in.pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const& history) {
         known.push_back({in.frame.id[low], in.frame.id[high], history});
     });
-    in.walls.for_each_touching([&](std::uint32_t row, std::uint32_t wall, History const& history) {
-        known.push_back({in.frame.id[row], ContactRecord::wall_bit | Id{wall} << 8, history});
+    in.walls.for_each_touching([&](std::uint32_t row, Id partner, History const& history) {
+        known.push_back({in.frame.id[row], ContactRecord::wall_bit | partner, history});
     });
     resume(granules, known);
     std::fill(in.frame.sums.begin(), in.frame.sums.end(), kernel::Sum{});
@@ -217,9 +218,8 @@ void Engine::resume(particle::Store& granules, std::span<ContactRecord const> co
 {
     auto& in = *inside_;
     in.pairs = {};
-    in.walls = {};
     in.pairs.shape(in.rules.columns);
-    in.walls.shape(in.rules.columns);
+    in.walls.clear();
     in.frame.take(granules);
     in.rebuild(granules, contacts);
     in.frame.give(granules);
@@ -257,7 +257,9 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
         ++in.steps;
         double const moved = move(k == 0 ? 1 : 2, dt);
         if (in.comm.size() == 1 && !in.failure.empty()) throw base::NumericsError(in.failure);
-        if (in.outgrown(moved)) {
+        in.time += dt;
+        in.walls.go_to(in.time, dt);
+        if (in.outgrown(moved) || in.walls.moved() > 0.5 * in.skin - in.growth) {
             in.rebuild(granules);
         } else if (in.comm.size() > 1) {
             auto const timing = in.stopwatch.time(Stage::neighbours);
@@ -330,9 +332,9 @@ std::vector<Contact> Engine::contacts() const
         }
     for (std::size_t k = 0; k < in.walls.size(); ++k) {
         if (!in.walls.touches(k)) continue;
-        auto const row = in.walls.row(k), wall = in.walls.wall(k);
+        auto const row = in.walls.row(k), wall = in.walls.body(k);
         auto const& body = frame.bodies[row];
-        double const speed = dot(Frame::vec(body.velocity), in.walls.normal(k));
+        double const speed = dot(Frame::vec(body.velocity) - in.walls.velocity(k), in.walls.normal(k));
         out.push_back({frame.id[row], wall, true, in.walls.overlap(k),
                        normal_force(frame.material[row] * materials + in.settings.walls[wall].material,
                                     in.walls.overlap(k), body.radius, 1 / body.inverse_mass, speed),
@@ -348,10 +350,33 @@ std::vector<ContactRecord> Engine::save_contacts() const
     in.pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const& history) {
         if (low < in.frame.owned) out.push_back({in.frame.id[low], in.frame.id[high], history});
     });
-    in.walls.for_each_touching([&](std::uint32_t row, std::uint32_t wall, History const& history) {
-        out.push_back({in.frame.id[row], ContactRecord::wall_bit | Id{wall} << 8, history});
+    in.walls.for_each_touching([&](std::uint32_t row, Id partner, History const& history) {
+        out.push_back({in.frame.id[row], ContactRecord::wall_bit | partner, history});
     });
     return out;
+}
+
+std::vector<WallLoad> Engine::wall_loads() const
+{
+    return inside_->walls.loads(inside_->frame, inside_->comm);
+}
+geometry::Pose const& Engine::pose(std::size_t body) const
+{
+    return inside_->walls.pose(body);
+}
+double Engine::time() const
+{
+    return inside_->time;
+}
+std::vector<geometry::ServoState> Engine::servos() const
+{
+    return inside_->walls.servos();
+}
+void Engine::set_clock(double time, std::vector<geometry::ServoState> const& servos)
+{
+    inside_->time = time;
+    if (!servos.empty()) inside_->walls.servos(servos);
+    inside_->walls.go_to(time, 0);
 }
 
 long Engine::candidates() const

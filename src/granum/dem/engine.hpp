@@ -11,7 +11,8 @@
 #include "granum/base/timer.hpp"
 #include "granum/dem/contact_laws.hpp"
 #include "granum/dem/halo.hpp"
-#include "granum/geometry/wall.hpp"
+#include "granum/dem/wall_contacts.hpp"
+#include "granum/geometry/body.hpp"
 #include "granum/par/communicator.hpp"
 #include "granum/par/partition.hpp"
 #include "granum/particle/attachment.hpp"
@@ -28,7 +29,7 @@ namespace granum::dem
 struct Settings
 {
     Laws laws;  //!< contact laws and the table of material pairs
-    std::vector<geometry::Wall> walls;
+    std::vector<geometry::Body> walls;
     math::Vec3 lower, upper;  //!< of the domain, m
     std::array<bool, 3> periodic{};
     math::Vec3 gravity{0, 0, -9.81};                  //!< m/s2
@@ -102,6 +103,16 @@ class Engine
     std::vector<Contact> contacts() const;
     //! All contacts to save, each on one rank only.
     std::vector<ContactRecord> save_contacts() const;
+
+    //! Loads of the granules on the bodies at the last step. Collective.
+    std::vector<WallLoad> wall_loads() const;
+    //! Where the bodies are.
+    geometry::Pose const& pose(std::size_t body) const;
+
+    //! Time and what servos have come to, to be saved, and given back before resume().
+    double time() const;
+    std::vector<geometry::ServoState> servos() const;
+    void set_clock(double time, std::vector<geometry::ServoState> const& servos = {});
 
     long candidates() const;     //!< pairs in the neighbour list
     std::size_t bytes() const;   //!< of memory, about

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "granum/dem/engine.hpp"
-#include "granum/dem/wall_list.hpp"
+#include "granum/dem/wall_contacts.hpp"
 
 #include <unordered_map>
 
@@ -22,7 +22,8 @@ struct Engine::Inside
     NeighbourSearch search;
     Candidates candidates;
     PairList pairs;
-    WallList walls;
+    WallContacts walls;
+    double time = 0;  // s
     std::vector<particle::Attachment*> attachments;
     Watch watch;
     base::Stopwatch stopwatch;

@@ -89,8 +89,8 @@ std::vector<ContactRecord> Engine::Inside::contacts_of(std::vector<std::uint32_t
     pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const& history) {
         if (wanted[low] || wanted[high]) out.push_back({frame.id[low], frame.id[high], history});
     });
-    walls.for_each_touching([&](std::uint32_t row, std::uint32_t wall, History const& history) {
-        if (wanted[row]) out.push_back({frame.id[row], ContactRecord::wall_bit | Id{wall} << 8, history});
+    walls.for_each_touching([&](std::uint32_t row, Id partner, History const& history) {
+        if (wanted[row]) out.push_back({frame.id[row], ContactRecord::wall_bit | partner, history});
     });
     out.insert(out.end(), saved.begin(), saved.end());
     return out;
@@ -193,15 +193,13 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
     pairs.make(frame, domain, candidates, row_now, owned_before);
-    walls.make(frame, settings.walls, skin, row_now);
+    walls.make(frame, skin, largest, row_now);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
             auto const low = (*index)(record.low);
             if (low == RowIndex::nowhere) continue;
             if ((record.high & ContactRecord::wall_bit) != 0) {
-                if (low < frame.owned)
-                    walls.set(low, static_cast<std::uint32_t>((record.high & ~ContactRecord::wall_bit) >> 8),
-                              record.history);
+                if (low < frame.owned) walls.set(low, record.high & ~ContactRecord::wall_bit, record.history);
             } else if (auto const high = (*index)(record.high); high != RowIndex::nowhere) {
                 pairs.set(low, high, record.history);
             }

@@ -242,11 +242,14 @@ TEST(StepBounds, are_those_of_the_tabulated_granules)
     }
 }
 
-TEST(ConeWall, that_goes_on_as_a_cylinder_pushes_once_where_they_meet)
+TEST(Flank, that_goes_on_as_a_cylinder_pushes_once_where_they_meet)
 {
     // A granule pressed outward at the height where two equal cylinders meet feels one wall, not two.
     scene::Scene scene(soft, {.restitution = 1, .sliding_friction = 0});
-    scene.settings.walls = {{geometry::ConeWall{0, 0.1, 0.5, 0.1}, 1}, {geometry::ConeWall{0.5, 0.1, 1, 0.1}, 1}};
+    geometry::Frustum below{.length = 0.5, .base_radius = 0.1, .top_radius = 0.1, .side = geometry::Side::inside};
+    auto above = below;
+    above.base.z = 0.5;
+    scene.settings.walls = {{.name = "chamber", .shapes = {below, above}, .material = 1}};
     for (double const height : {0.4, 0.4999, 0.5, 0.5001}) {
         scene.granules = {};
         scene.add({0.1 - 0.95e-3, 0, height}, {}, 1e-3, 1445);
