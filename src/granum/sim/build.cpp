@@ -5,6 +5,7 @@
 #include "granum/math/constants.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -21,25 +22,40 @@ typename List::Any named(std::string const& name)
     return *law;
 }
 
-std::vector<geometry::Wall> walls(Case const& data)
+std::vector<geometry::Body> walls(Case const& data)
 {
     auto const& chamber = data.chamber;
     double const height = chamber.height();
-    std::vector<geometry::Wall> out;
-    auto const plane = [&](Vec3 point, Vec3 normal) { out.push_back({geometry::Plane{point, normal}, 1}); };
+    std::vector<geometry::Body> out;
+    auto const plane = [&](std::string name, Vec3 point, Vec3 normal) {
+        out.push_back({.name = std::move(name), .shapes = {geometry::Plane{point, normal}}, .material = 1});
+    };
     if (!data.periodic[2]) {
-        plane({0, 0, 0}, {0, 0, 1});
-        plane({0, 0, height}, {0, 0, -1});  // the filter
+        plane("plate", {0, 0, 0}, {0, 0, 1});
+        plane("filter", {0, 0, height}, {0, 0, -1});
     }
     if (chamber.shape == geometry::Chamber::Shape::box) {
-        if (!data.periodic[0]) plane({0, 0, 0}, {1, 0, 0}), plane({chamber.size.x, 0, 0}, {-1, 0, 0});
-        if (!data.periodic[1]) plane({0, 0, 0}, {0, 1, 0}), plane({0, chamber.size.y, 0}, {0, -1, 0});
-    } else {
-        for (std::size_t p = 0; p + 1 < chamber.profile.size(); ++p)
-            out.push_back({geometry::ConeWall{chamber.profile[p].height, chamber.profile[p].radius,
-                                              chamber.profile[p + 1].height, chamber.profile[p + 1].radius},
-                           1});
+        constexpr std::array low{"x-low", "y-low"}, high{"x-high", "y-high"};
+        for (std::size_t d = 0; d < 2; ++d) {
+            if (data.periodic[d]) continue;
+            Vec3 normal;
+            normal[d] = 1;
+            plane(low[d], {0, 0, 0}, normal);
+            plane(high[d], chamber.size, -normal);
+        }
+        return out;
     }
+    geometry::Body wall{.name = "chamber", .shapes = {}, .material = 1};
+    for (std::size_t p = 0; p + 1 < chamber.profile.size(); ++p) {
+        auto const &from = chamber.profile[p], &to = chamber.profile[p + 1];
+        wall.shapes.push_back(geometry::Frustum{.base = {0, 0, from.height},
+                                                .axis = {0, 0, 1},
+                                                .length = to.height - from.height,
+                                                .base_radius = from.radius,
+                                                .top_radius = to.radius,
+                                                .side = geometry::Side::inside});
+    }
+    out.push_back(std::move(wall));
     return out;
 }
 
