@@ -29,11 +29,14 @@ dem::Settings settings_of(Vec3 const& upper, Touching const& touching, Engine co
     settings.skin = how.skin;
     settings.kernel = how.kernel;
     settings.energy_ledger = how.energy_ledger;
-    settings.walls = {{geometry::Plane{{0, 0, 0}, {0, 0, 1}}, 0},
-                      {geometry::Plane{{0, 0, 0}, {1, 0, 0}}, 0},
-                      {geometry::Plane{{upper.x, 0, 0}, {-1, 0, 0}}, 0},
-                      {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, 0},
-                      {geometry::Plane{{0, upper.y, 0}, {0, -1, 0}}, 0}};
+    auto const plane = [&settings](Vec3 const& point, Vec3 const& normal) {
+        settings.walls.push_back({.name = "plane", .shapes = {geometry::Plane{point, normal}}});
+    };
+    plane({0, 0, 0}, {0, 0, 1});
+    plane({0, 0, 0}, {1, 0, 0});
+    plane({upper.x, 0, 0}, {-1, 0, 0});
+    plane({0, 0, 0}, {0, 1, 0});
+    plane({0, upper.y, 0}, {0, -1, 0});
     return settings;
 }
 

@@ -102,7 +102,7 @@ void Engine::Inside::name_overlap()
         if (double const overlap = walls.overlap(k) / frame.radius(walls.row(k)); overlap > worst) {
             worst = overlap;
             who = fmt::format("granule {} is {:.0f} % of its radius in wall {}", frame.id[walls.row(k)], 100 * overlap,
-                              walls.body(k));
+                              settings.walls[walls.body(k)].name);
         }
     failure = fmt::format(
         "{} at step {}: the time step is too long, the stiffness too low or granules were placed into each other", who,

@@ -1,5 +1,7 @@
 #include "granum/dem/hard_walls.hpp"
 
+#include "granum/base/error.hpp"
+
 #include "granum/math/first_fall.hpp"
 
 #include <algorithm>
@@ -57,8 +59,28 @@ std::array<double, 5> room(ConeWall const& wall, Vec3 const& x, Vec3 const& v, V
 }
 }
 
-HardWalls::HardWalls(std::vector<geometry::Wall> walls) : walls_(std::move(walls))
+HardWalls::HardWalls(std::vector<geometry::Body> const& bodies)
 {
+    for (auto const& body : bodies) {
+        bool known = body.motions.empty();
+        for (auto const& shape : body.shapes) {
+            auto const* const flank = std::get_if<geometry::Frustum>(&shape);
+            if (auto const* const plane = std::get_if<Plane>(&shape))
+                walls_.push_back({*plane, body.material});
+            else if (flank && flank->side == geometry::Side::inside && flank->axis == Vec3{0, 0, 1} &&
+                     flank->base.x == 0 && flank->base.y == 0)
+                walls_.push_back(
+                    {ConeWall{flank->base.z, flank->base_radius, flank->base.z + flank->length, flank->top_radius},
+                     body.material});
+            else
+                known = false;
+        }
+        base::require(
+            known,
+            "wall {} is nothing that hard spheres can meet: they know planes and the insides of cylinders and "
+            "cones about the z axis, at rest",
+            body.name);
+    }
     for (auto const& wall : walls_) {
         auto const* section = std::get_if<ConeWall>(&wall.surface);
         rim_.push_back(section && !(end_is_hidden(*section, section->r0, section->z0, walls_) &&

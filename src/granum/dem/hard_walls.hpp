@@ -5,6 +5,7 @@
 #pragma once
 
 #include "granum/dem/hard_state.hpp"
+#include "granum/geometry/body.hpp"
 #include "granum/geometry/wall.hpp"
 
 namespace granum::dem
@@ -12,7 +13,9 @@ namespace granum::dem
 class HardWalls
 {
   public:
-    explicit HardWalls(std::vector<geometry::Wall> walls);
+    //! Throws NumericsError for a body that hard spheres cannot meet: one that moves, or of other shapes than planes
+    //! and the insides of cylinders and cones about the z axis.
+    explicit HardWalls(std::vector<geometry::Body> const& bodies);
 
     std::size_t size() const { return walls_.size(); }
     std::uint32_t material(std::size_t wall) const { return walls_[wall].material; }

@@ -159,6 +159,18 @@ TEST(HardFlight, of_a_bouncing_ball_is_the_closed_form)
     EXPECT_LE(scene.watch().largest_overlap, 1e-12);
 }
 
+// The inside of a cylinder or cone about z from height z0 to z1.
+geometry::Body section(double z0, double r0, double z1, double r1)
+{
+    return {.name = "section",
+            .shapes = {geometry::Frustum{.base = {0, 0, z0},
+                                         .length = z1 - z0,
+                                         .base_radius = r0,
+                                         .top_radius = r1,
+                                         .side = geometry::Side::inside}},
+            .material = 1};
+}
+
 TEST(HardFlight, in_a_cylinder_and_a_cone_keeps_the_energy_and_stays_inside)
 {
     for (double const top : {0.1, 0.15}) {  // radius at the upper end
@@ -166,8 +178,8 @@ TEST(HardFlight, in_a_cylinder_and_a_cone_keeps_the_energy_and_stays_inside)
         scene.settings.gravity = {0, 0, -9.81};
         scene.add_plane({0, 0, 0}, {0, 0, 1});
         scene.add_plane({0, 0, 0.5}, {0, 0, -1});
-        scene.settings.walls.push_back({geometry::ConeWall{0, 0.1, 0.3, top}, 1});
-        scene.settings.walls.push_back({geometry::ConeWall{0.3, top, 0.5, top}, 1});
+        scene.settings.walls.push_back(section(0, 0.1, 0.3, top));
+        scene.settings.walls.push_back(section(0.3, top, 0.5, top));
         double const radius = 0.01;
         scene.add({0.01, 0.02, 0.2}, {1.3, 0.7, 2.1}, radius, 1000);
         scene.prepare_hard();
@@ -192,9 +204,9 @@ TEST(HardFlight, meets_a_rim_that_sticks_out)
 {
     // A narrow pipe opens into a wide one: the sphere falls onto the edge between them.
     HardScene scene({.restitution = 1, .sliding_friction = 0});
-    scene.settings.walls.push_back({geometry::ConeWall{0, 0.05, 0.2, 0.05}, 1});
-    scene.settings.walls.push_back({geometry::ConeWall{0.2, 0.05, 0.2001, 0.2}, 1});
-    scene.settings.walls.push_back({geometry::ConeWall{0.2001, 0.2, 0.6, 0.2}, 1});
+    scene.settings.walls.push_back(section(0, 0.05, 0.2, 0.05));
+    scene.settings.walls.push_back(section(0.2, 0.05, 0.2001, 0.2));
+    scene.settings.walls.push_back(section(0.2001, 0.2, 0.6, 0.2));
     double const radius = 0.02;
     scene.add({0.045, 0, 0.4}, {0, 0, -1}, radius, 1000);
     scene.prepare_hard();
