@@ -7,6 +7,7 @@
 #include "granum/report/report.hpp"
 #include "granum/sim/build.hpp"
 #include "granum/sim/case_reader.hpp"
+#include "granum/sim/continuation.hpp"
 #include "granum/sim/run.hpp"
 #include "granum/sim/stop.hpp"
 #include "launcher.hpp"
@@ -14,6 +15,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -24,25 +26,45 @@ namespace
 {
 namespace fs = std::filesystem;
 
+constexpr char const* go_on_word = "GRANUM_GO_ON";  // from the program to its ranks
+
 struct Wish
 {
     std::string path, folder, until;
     int ranks = 0;
-    bool json = false, quiet = false;
+    bool json = false, quiet = false, fresh = false;
 };
 
-//! `<case>-run`, or the first `<case>-run-2`, -3 ... that is free; a folder that the user names must be free.
-std::string choose_folder(Wish const& wish)
+//! Where the results go, and whether a run that is there goes on.
+struct Place
 {
-    if (!wish.folder.empty()) {
-        bool const free = !fs::exists(wish.folder) || (fs::is_directory(wish.folder) && fs::is_empty(wish.folder));
-        if (!free) throw base::CaseError({{wish.folder, 0, "", "exists already", {"choose another folder with -o"}}});
-        return wish.folder;
+    std::string folder;
+    bool go_on = false;
+};
+
+//! A folder that the user names must be free, or hold a run of this case; otherwise `<case>-run`, or the first
+//! `<case>-run-2`, -3 ... that is free.
+Place choose_place(Wish const& wish, sim::ResolvedCase const& resolved)
+{
+    if (wish.folder.empty()) {
+        auto const stem = fs::path(wish.path).stem().string() + "-run";
+        auto folder = stem;
+        for (int i = 2; fs::exists(folder); ++i) folder = fmt::format("{}-{}", stem, i);
+        return {folder, false};
     }
-    auto const stem = fs::path(wish.path).stem().string() + "-run";
-    auto folder = stem;
-    for (int i = 2; fs::exists(folder); ++i) folder = fmt::format("{}-{}", stem, i);
-    return folder;
+    auto const& folder = wish.folder;
+    if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return {folder, false};
+    if (!sim::is_run_folder(folder))
+        throw base::CaseError(
+            {{folder, 0, "", "exists already and holds no run to go on with", {"choose another folder with -o"}}});
+    if (wish.fresh) {
+        fs::remove_all(folder + "/checkpoint");
+        fs::remove_all(folder + "/vtk");
+        fs::remove(folder + "/summary.json");
+        return {folder, false};
+    }
+    sim::refuse_other_case(folder, resolved);
+    return {folder, true};
 }
 
 std::optional<double> read_until(Wish const& wish)
@@ -111,30 +133,67 @@ void report(Wish const& wish, std::string const& folder)
         fmt::print("report: {}\n", path);
 }
 
-int run(Wish const& wish)
+//! What the user was told when the run began is told again: the folder is the case.
+Wish of_folder(Wish wish)
 {
+    if (!fs::is_directory(wish.path)) return wish;
+    if (!sim::is_run_folder(wish.path))
+        throw base::CaseError({{wish.path, 0, "", "is a folder without a run to go on with", {"give a case file"}}});
+    if (!wish.folder.empty() && !fs::equivalent(wish.folder, wish.path))
+        throw base::CaseError({{wish.path, 0, "", "goes on in its own folder", {"leave out -o " + wish.folder}}});
+    wish.folder = wish.path;
+    wish.path = sim::case_file_of(wish.folder);
+    return wish;
+}
+
+int launch(Wish const& wish, Place const& place, int ranks)
+{
+    std::vector<std::string> words{"run", wish.path, "-o", place.folder};
+    if (!wish.until.empty()) words.insert(words.end(), {"--until", wish.until});
+    if (wish.json) words.push_back("--json");
+    if (wish.quiet) words.push_back("--quiet");
+    setenv(go_on_word, place.go_on ? "1" : "0", 1);
+    std::fflush(nullptr);
+    // A rank that was killed, or left the others waiting, could not say so in the summary.
+    try {
+        int const status = launch_ranks(ranks, words);
+        if (status != 0) sim::mark_failed(place.folder);
+        return status;
+    } catch (base::Error const&) {
+        sim::mark_failed(place.folder);
+        throw;
+    }
+}
+
+int run(Wish const& asked)
+{
+    auto const wish = of_folder(asked);
     auto const resolved = sim::read_case(wish.path);
     auto const until = read_until(wish);
-    if (started_by_launcher()) return run_here(resolved, {wish.folder, until, wish.json, wish.quiet});
+    sim::RunOptions options{.folder = wish.folder, .until = until, .json = wish.json, .quiet = wish.quiet};
+    options.program = GRANUM_VERSION;
+    if (started_by_launcher()) {
+        auto const* word = std::getenv(go_on_word);
+        options.go_on = word && std::string(word) == "1";
+        return run_here(resolved, options);
+    }
 
-    auto const folder = choose_folder(wish);
+    auto const place = choose_place(wish, resolved);
+    if (place.go_on && sim::is_done(place.folder, until.value_or(resolved.data.time.duration))) {
+        if (wish.json)
+            std::cout << std::ifstream(place.folder + "/summary.json").rdbuf();
+        else if (!wish.quiet)
+            fmt::print("{} is done; a longer time.duration or --until goes on, --fresh begins anew\n", place.folder);
+        return 0;
+    }
+    options.folder = place.folder, options.go_on = place.go_on;
     int const ranks = choose_ranks(wish, resolved.data);
     if (!wish.quiet && !wish.json)
         for (auto const& warning : resolved.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    int status = 0;
-    if (ranks == 1) {
-        status = run_here(resolved, {folder, until, wish.json, wish.quiet});
-    } else {
-        std::vector<std::string> words{"run", wish.path, "-o", folder};
-        if (!wish.until.empty()) words.insert(words.end(), {"--until", wish.until});
-        if (wish.json) words.push_back("--json");
-        if (wish.quiet) words.push_back("--quiet");
-        std::fflush(nullptr);
-        status = launch_ranks(ranks, words);
-    }
-    if (status == static_cast<int>(base::Exit::interrupted) && !ended(folder)) return status;
+    int status = ranks == 1 ? run_here(resolved, options) : launch(wish, place, ranks);
+    if (status == static_cast<int>(base::Exit::interrupted) && !ended(place.folder)) return status;
     try {
-        report(wish, folder);
+        report(wish, place.folder);
     } catch (std::exception const& error) {
         fmt::print(stderr, "granum: the report could not be written: {}\n", error.what());
         if (status == 0) status = static_cast<int>(base::Exit::io);
@@ -147,10 +206,12 @@ void add_run(CLI::App& program, Action& action)
 {
     auto* verb = program.add_subcommand("run", "simulate a case");
     auto wish = std::make_shared<Wish>();
-    verb->add_option("CASE", wish->path, "case file")->required();
-    verb->add_option("-o", wish->folder, "folder of the results; otherwise <case>-run here");
+    verb->add_option("CASE", wish->path, "case file, or the folder of a run to go on with")->required();
+    verb->add_option("-o", wish->folder,
+                     "folder of the results, where a run of this case goes on; otherwise a new <case>-run here");
     verb->add_option("-n", wish->ranks, "number of ranks; otherwise one per core")->check(CLI::Range(1, 100000));
     verb->add_option("--until", wish->until, "simulated time to stop at, e.g. \"0.5 s\"");
+    verb->add_flag("--fresh", wish->fresh, "discard the run in the folder and begin anew");
     verb->add_flag("--json", wish->json, "print summary.json at the end and nothing else");
     verb->add_flag("--quiet", wish->quiet, "print only errors");
     verb->callback([wish, &action] { action = [wish] { return run(*wish); }; });

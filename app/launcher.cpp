@@ -30,6 +30,11 @@ void pass_on(int)
     if (child > 0 && signals == 1) kill(child, SIGUSR1);  // mpirun hands it to every rank
 }
 
+void pass_on_checkpoint(int)
+{
+    if (child > 0) kill(child, SIGUSR2);
+}
+
 std::vector<pid_t> descendants(pid_t of)
 {
     std::vector<pid_t> all;
@@ -84,6 +89,8 @@ int launch_ranks(int ranks, std::vector<std::string> const& arguments)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = pass_on_checkpoint;
+    sigaction(SIGUSR2, &action, nullptr);
 
     auto const self = std::filesystem::read_symlink("/proc/self/exe").string();
     bool const terminal = isatty(1) && isatty(2);

@@ -40,7 +40,7 @@ Field Exchange::voidage(particle::Store const& granules)
 {
     Field solids = grid_.make_field();
     auto const stencils = mapping_.stencils();
-    for (std::size_t row = 0; row < granules.owned; ++row) {
+    for (std::size_t const row : mapping_.order()) {
         double const d = granules.diameter[row];
         Mapping::spread(stencils[row], granules.count[row] * math::pi / 6 * d * d * d, solids);
     }
@@ -112,7 +112,7 @@ void Exchange::share(particle::Store const& granules, gas::State const& state, d
         },
         laws_.heat);
 
-    for (std::size_t row = 0; row < granules.owned; ++row) {
+    for (std::size_t const row : mapping_.order()) {
         Stencil const& stencil = stencils[row];
         Vec3 const momentum = seen.drag[row] * granules.velocity[row];
         Vec3 const carried = granules.drag_impulse[row] / -dt;
@@ -152,7 +152,7 @@ double Exchange::deliver(particle::Store& granules, gas::State const& state, Fie
     mapping_.prepare(gathered);
 
     auto const stencils = mapping_.stencils();
-    for (std::size_t row = 0; row < granules.owned; ++row) {
+    for (std::size_t const row : mapping_.order()) {
         Stencil const& stencil = stencils[row];
         Vec3 const u = Mapping::gather(stencil, velocity);
         double const d = granules.diameter[row];

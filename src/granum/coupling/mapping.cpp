@@ -1,5 +1,7 @@
 #include "granum/coupling/mapping.hpp"
 
+#include "granum/particle/rows.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +62,7 @@ void Mapping::locate(particle::Store const& granules)
 {
     stencils_.resize(granules.owned);
     for (std::size_t row = 0; row < granules.owned; ++row) stencils_[row] = stencil(granules.position[row]);
+    order_ = particle::rows_by_identity(granules);
 }
 
 void Mapping::finish(std::span<Field* const> amounts) const

@@ -39,6 +39,10 @@ class Mapping
     void locate(particle::Store const& granules);
     std::span<Stencil const> stencils() const { return stencils_; }
 
+    //! The owned rows of `locate` by identity: sums taken in this order do not depend on the order in memory, so a run
+    //! that was continued, whose rows lie elsewhere, has the same bits.
+    std::span<std::uint32_t const> order() const { return order_; }
+
     //! Adds amount * weight to the cells; call `finish` after the last one.
     static void spread(Stencil const& stencil, double amount, Field& field)
     {
@@ -68,6 +72,7 @@ class Mapping
     Grid const& grid_;
     par::Communicator const& comm_;
     std::vector<Stencil> stencils_;
+    std::vector<std::uint32_t> order_;
     grid::FaceField conductance_;  //!< m3 exchanged through each lower face in a pass
     int passes_ = 0;
     mutable Field work_;

@@ -36,6 +36,20 @@ Field const& Solver::exchanged_temperature() const
     return inside_->exchanged;
 }
 
+Field const& Solver::correction() const
+{
+    return inside_->correction;
+}
+solve::Pressure::Memory const& Solver::pressure_memory() const
+{
+    return inside_->pressure.memory();
+}
+void Solver::recall(Field correction, std::optional<solve::Pressure::Memory> memory)
+{
+    inside_->correction = std::move(correction);
+    if (memory) inside_->pressure.recall(std::move(*memory));
+}
+
 State Solver::start(Field const& voidage, double temperature, double vapour_fraction, Vec3 velocity) const
 {
     Inside const& in = *inside_;

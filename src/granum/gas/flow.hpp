@@ -11,6 +11,7 @@
 
 #include "granum/grid/grid.hpp"
 #include "granum/par/communicator.hpp"
+#include "granum/solve/pressure.hpp"
 
 #include <memory>
 #include <optional>
@@ -115,6 +116,14 @@ class Solver
 
     FaceWeights const& weights() const;
     Settings const& settings() const;
+
+    //! @{ What the next step depends on beside the state: the first guess of the pressure's correction (by cell), and
+    //! what the pressure solver remembers. Without the latter, or on other ranks, the next step agrees to the solver's
+    //! tolerance.
+    Field const& correction() const;
+    solve::Pressure::Memory const& pressure_memory() const;
+    void recall(Field correction, std::optional<solve::Pressure::Memory> memory);
+    //! @}
 
   private:
     struct Inside;

@@ -175,6 +175,17 @@ void write_surface(std::string const& path, Surface const& surface)
 void Collection::add(double time, std::string const& file)
 {
     entries_ += fmt::format("<DataSet timestep=\"{:.12g}\" part=\"0\" file=\"{}\"/>\n", time, attribute(file));
+    write();
+}
+
+void Collection::go_on(std::string entries)
+{
+    entries_ = std::move(entries);
+    if (!entries_.empty()) write();
+}
+
+void Collection::write() const
+{
     replace_text(path_, document("Collection", "<Collection>\n" + entries_ + "</Collection>\n"));
 }
 }

@@ -62,7 +62,14 @@ class Collection
     //! @param file relative to the folder of the collection
     void add(double time, std::string const& file);
 
+    //! @{ The entries so far, and a series that goes on from there: the file holds these and no others.
+    std::string const& entries() const { return entries_; }
+    void go_on(std::string entries);
+    //! @}
+
   private:
+    void write() const;
+
     std::string path_;
     std::string entries_;
 };

@@ -48,6 +48,16 @@ void Communicator::sum(std::span<double> values) const
         MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
 }
 
+bool Communicator::meet(double seconds) const
+{
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(handle_, &request);
+    int here = 0;
+    for (double const end = MPI_Wtime() + seconds; here == 0 && MPI_Wtime() < end;)
+        MPI_Test(&request, &here, MPI_STATUS_IGNORE);
+    return here != 0;
+}
+
 void Communicator::barrier() const
 {
     MPI_Barrier(handle_);

@@ -28,6 +28,9 @@ class Communicator
     void sum(std::span<double> values) const;  //!< element by element, result on every rank
     void barrier() const;
 
+    //! True where all ranks come here within `seconds`: a barrier for when some may have failed and never come.
+    bool meet(double seconds) const;
+
     //! Sends `out` to rank `to` while receiving from rank `from`; either may be -1 for nobody. Any length.
     std::vector<std::byte> exchange(std::span<std::byte const> out, int to, int from) const;
 

@@ -1,6 +1,8 @@
 #include "granum/particle/rows.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace granum::particle
 {
@@ -38,6 +40,14 @@ std::span<std::byte const> unpack_row(Store& granules, std::size_t row, Columns 
         bytes = bytes.subspan(sizeof(value));
     });
     return bytes;
+}
+
+std::vector<std::uint32_t> rows_by_identity(Store const& granules)
+{
+    std::vector<std::uint32_t> rows(granules.owned);
+    std::iota(rows.begin(), rows.end(), 0u);
+    std::sort(rows.begin(), rows.end(), [&](auto a, auto b) { return granules.id[a] < granules.id[b]; });
+    return rows;
 }
 
 void reorder(Store& granules, std::span<std::uint32_t const> order)

@@ -24,6 +24,9 @@ std::size_t packed_size(Store const& granules, Columns which);
 std::span<std::byte const> unpack_row(Store& granules, std::size_t row, Columns which,
                                       std::span<std::byte const> bytes);
 
+//! The owned rows, by rising identity.
+std::vector<std::uint32_t> rows_by_identity(Store const& granules);
+
 //! Makes row k the former row order[k]; rows that `order` does not name are dropped, and so are all ghosts.
 void reorder(Store& granules, std::span<std::uint32_t const> order);
 }

@@ -159,6 +159,8 @@ struct TimeCase
     std::optional<double> granule_step, gas_step;  //!< s; otherwise chosen from the bounds
     double output_interval = 0.1;                  //!< of pictures and ParaView files, s
     double series_interval = 0.005;                //!< of timeseries.csv, s
+    double checkpoint_interval = 600;              //!< of wall time, s; the first comes after two minutes at the latest
+    std::optional<double> checkpoint_every;        //!< s of process, beside the wall time
 };
 
 struct Case

@@ -133,5 +133,11 @@ void read_process(io::CaseFile& file, Case& data, Purpose purpose)
                                          "of pictures and ParaView files", io::positive);
     time.series_interval = file.quantity("output.series_interval", Dimension::time, time.series_interval,
                                          "of timeseries.csv", io::positive);
+    time.checkpoint_interval =
+        file.quantity("output.checkpoint_interval", Dimension::time, time.checkpoint_interval,
+                      "wall time between checkpoints; the first comes after 2 min at the latest", io::positive);
+    time.checkpoint_every =
+        file.optional_quantity("output.checkpoint_every", Dimension::time,
+                               "time of process between checkpoints, beside the wall time", io::positive);
 }
 }

@@ -135,9 +135,28 @@ io::GasSlice slice(std::vector<CellRow> const& cells, grid::Grid const& grid, do
     }
     return out;
 }
+
+io::GranuleView view_of(std::vector<GranuleRow> const& granules, std::vector<product::LayerSum> const& layers,
+                        bool process)
+{
+    io::GranuleView view;
+    for (auto const& row : granules) view.position.push_back(row.position);
+    for (auto const& row : granules) {
+        view.radius.push_back(row.radius);
+        view.diameter.push_back(row.diameter);
+        view.count.push_back(row.count);
+        if (!process) continue;
+        view.temperature.push_back(row.temperature);
+        view.moisture.push_back(row.moisture);
+        bool const layered = row.id < layers.size() && layers[row.id].solids > 0;
+        view.porosity.push_back(layered ? layers[row.id].prediction().mean : std::numeric_limits<double>::quiet_NaN());
+        view.layer_mass.push_back(row.layer_mass);
+    }
+    return view;
+}
 }
 
-Output::Output(std::string folder, Simulation& simulation)
+Output::Output(std::string folder, Simulation& simulation, io::Sections const* saved)
     : folder_(std::move(folder)),
       simulation_(simulation),
       root_(simulation.comm().root()),
@@ -173,10 +192,16 @@ Output::Output(std::string folder, Simulation& simulation)
     std::vector<io::EventColumn> event_columns;
     for (auto const& c : drying::event_columns)
         event_columns.push_back({std::string(c.name), std::string(c.unit), std::string(c.doc)});
-    if (simulation.data().spray.present)
+    if (simulation.data().spray.present) {
         events_ = std::make_unique<io::EventsWriter>(folder_ + "/events.h5", event_columns);
+        event_log_ = std::make_unique<io::RowLog>(folder_ + "/checkpoint/events.rows", event_columns.size());
+    }
     io::write_surface(folder_ + "/vtk/walls.vtp", io::chamber_surface(simulation.data().chamber));
     io::Collection(folder_ + "/walls.pvd").add(0, "vtk/walls.vtp");
+    if (saved)
+        go_on(*saved);
+    else if (event_log_)
+        event_log_->begin();
 }
 
 void Output::sample()
@@ -184,6 +209,11 @@ void Output::sample()
     Sample const s{simulation_.time(), simulation_.readings(), simulation_.totals()};
     if (!root_) return;
     samples_.push_back(s);
+    write(s);
+}
+
+void Output::write(Sample const& s)
+{
     auto const& r = s.readings;
     auto const& t = s.totals;
     double const row[] = {s.time,
@@ -209,24 +239,35 @@ void Output::sample()
     series_->append(row);
 }
 
+void Output::count(drying::Event const& event)
+{
+    if (event.initial > 0) return;
+    ++event_count_;
+    auto const prediction = std::visit(
+        [&](auto const& law) {
+            return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});
+        },
+        model_);
+    layers_[static_cast<std::size_t>(event.granule)].add(event.solids, prediction);
+}
+
 void Output::events()
 {
     auto const fresh = simulation_.take_events();
     if (!root_ || !events_) return;
-    for (auto const& event : fresh) {
-        if (event.initial > 0) continue;
-        ++event_count_;
-        auto const prediction = std::visit(
-            [&](auto const& law) {
-                return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});
-            },
-            model_);
-        layers_[static_cast<std::size_t>(event.granule)].add(event.solids, prediction);
-    }
+    for (auto const& event : fresh) count(event);
     static_assert(sizeof(drying::Event) % sizeof(double) == 0);
-    events_->append(
-        {reinterpret_cast<double const*>(fresh.data()), fresh.size() * sizeof(drying::Event) / sizeof(double)});
+    std::span<double const> const rows{reinterpret_cast<double const*>(fresh.data()),
+                                       fresh.size() * sizeof(drying::Event) / sizeof(double)};
+    event_log_->append(rows);
+    events_->append(rows);
     events_->flush();
+}
+
+void Output::look_at_granules()
+{
+    auto const granules = granule_rows(simulation_);
+    if (root_) view_ = view_of(granules, layers_, simulation_.granules().groups.process);
 }
 
 void Output::picture()
@@ -269,19 +310,7 @@ void Output::picture()
     snapshot.mid_plane = io::mid_plane(simulation_.data().chamber);
     snapshot.outline = io::mid_plane_outline(simulation_.data().chamber);
     for (auto const& nozzle : simulation_.data().spray.nozzles) snapshot.nozzles.push_back(nozzle.position);
-    auto& view = snapshot.granules;
-    view.position = places;
-    for (auto const& row : granules) {
-        view.radius.push_back(row.radius);
-        view.diameter.push_back(row.diameter);
-        view.count.push_back(row.count);
-        if (!process) continue;
-        view.temperature.push_back(row.temperature);
-        view.moisture.push_back(row.moisture);
-        bool const layered = row.id < layers_.size() && layers_[row.id].solids > 0;
-        view.porosity.push_back(layered ? layers_[row.id].prediction().mean : std::numeric_limits<double>::quiet_NaN());
-        view.layer_mass.push_back(row.layer_mass);
-    }
+    snapshot.granules = view_of(granules, layers_, process);
     places.clear();
     for (auto const& row : droplets) {
         places.push_back(row.position);

@@ -3,6 +3,7 @@
 
 #include "granum/io/csv.hpp"
 #include "granum/io/events_file.hpp"
+#include "granum/io/row_log.hpp"
 #include "granum/io/snapshot_file.hpp"
 #include "granum/io/vtk.hpp"
 #include "granum/product/aggregate.hpp"
@@ -27,12 +28,18 @@ struct Sample
 class Output
 {
   public:
-    //! The folder exists and is empty. Throws base::IoError.
-    Output(std::string folder, Simulation& simulation);
+    //! The folder exists. The files in it begin anew or, with what `save` returned in `saved` (read on rank 0), go on
+    //! from there: what was written later is taken back. Throws base::IoError.
+    Output(std::string folder, Simulation& simulation, io::Sections const* saved = nullptr);
 
-    void sample();   //!< a row of the time series
-    void picture();  //!< ParaView files and the snapshot for the report
-    void events();   //!< moves finished events to the file
+    void sample();            //!< a row of the time series
+    void look_at_granules();  //!< brings `last_view` up to date without writing anything
+    void picture();           //!< ParaView files and the snapshot for the report
+    void events();            //!< moves finished events to the file
+
+    //! What the files held by now and what the summary is made from; on rank 0, empty elsewhere. The events written so
+    //! far are on the disk when it returns.
+    io::Sections save() const;
 
     std::vector<Sample> const& samples() const { return samples_; }
     std::vector<product::LayerSum> const& layers() const { return layers_; }  //!< by granule, sprayed events only
@@ -40,11 +47,16 @@ class Output
     io::GranuleView const& last_view() const { return view_; }
 
   private:
+    void go_on(io::Sections const& saved);
+    void count(drying::Event const& event);
+    void write(Sample const& sample);
+
     std::string folder_;
     Simulation& simulation_;
     bool root_;
     std::unique_ptr<io::SeriesWriter> series_;
     std::unique_ptr<io::EventsWriter> events_;
+    std::unique_ptr<io::RowLog> event_log_;  //!< the same rows in our own format, from which events.h5 can be made anew
     io::Collection granules_, droplets_, gas_;
     std::vector<Sample> samples_;
     std::vector<product::LayerSum> layers_;

@@ -1,4 +1,5 @@
 // What the instruments of the plant would show, from the state of all ranks.
+#include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
 #include "granum/sim/simulation.hpp"
 
@@ -44,7 +45,7 @@ Readings Simulation::readings() const
     std::array<double, count> sums{};
     double coldest = 1e9, hottest = 0;
     double const c_dry = case_.granules.heat_capacity;
-    for (std::size_t row = 0; row < granules_.owned; ++row) {
+    for (std::size_t const row : particle::rows_by_identity(granules_)) {
         double const z = granules_.position[row].z, d = granules_.real_diameter(row);
         double const volume = granules_.real_count(row) * math::pi / 6 * d * d * d;
         if (granules_.groups.process) {

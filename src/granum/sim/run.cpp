@@ -1,6 +1,8 @@
 #include "granum/sim/run.hpp"
 
+#include "granum/io/checkpoint.hpp"
 #include "granum/sim/case_reader.hpp"
+#include "granum/sim/continuation.hpp"
 #include "granum/sim/output.hpp"
 #include "granum/sim/simulation.hpp"
 #include "granum/sim/state_hash.hpp"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -85,23 +88,41 @@ class LiveLine
     Clock::time_point start_ = Clock::now();
 };
 
-//! What this rank had when it failed, for ParaView: one file per rank, since the others may not answer any more.
-void write_failed_state(std::string const& folder, Simulation& simulation)
+//! When checkpoints are due by the wall clock: the first after two minutes, or sooner where the interval is shorter.
+class WallClock
 {
-    auto const& g = simulation.granules();
-    std::vector<io::NamedArray> arrays{{.name = "id", .values = {}, .precision = io::Precision::twice},
-                                       {.name = "radius [m]", .values = {}},
-                                       {.name = "velocity [m/s]", .values = {}, .components = 3}};
-    if (g.groups.process) arrays.push_back({.name = "temperature [K]", .values = g.temperature.values});
-    for (std::size_t row = 0; row < g.owned; ++row) {
-        arrays[0].values.push_back(static_cast<double>(g.id[row]));
-        arrays[1].values.push_back(g.radius[row]);
-        auto const v = g.velocity[row];
-        arrays[2].values.insert(arrays[2].values.end(), {v.x, v.y, v.z});
+  public:
+    explicit WallClock(double interval) : interval_(interval), due_(std::min(120.0, interval)) {}
+    bool due() const { return seconds_since(start_) >= due_; }
+    void written() { due_ = seconds_since(start_) + interval_; }
+
+  private:
+    Clock::time_point start_ = Clock::now();
+    double interval_, due_;
+};
+
+//! When the next row, picture and checkpoint are due, in simulated time, and the wall time of the legs before.
+struct Schedule
+{
+    double next_sample = 0, next_picture = 0, sampled = -1, pictured = -1, next_checkpoint = 0, wall = 0;
+};
+
+//! The state at the moment of a failure, for whoever looks for its cause: complete where all ranks still answer.
+void write_failed_state(std::string const& folder, Simulation& simulation, io::CheckpointLabel const& label,
+                        bool all_here)
+{
+    auto const path = folder + "/checkpoint/failed";
+    try {
+        if (all_here) {
+            io::CheckpointFolder(path, simulation.comm()).write(label, simulation.save());
+        } else {
+            std::filesystem::create_directories(path);
+            io::write_sections(io::SystemCalls::real(), fmt::format("{}/rank_{:05d}", path, simulation.comm().rank()),
+                               simulation.save());
+        }
+    } catch (std::exception const&) {
+        // The failure itself is what is told; a state that cannot be written any more must not hide it.
     }
-    if (g.groups.process) arrays[3].values.resize(g.owned);  // without the ghosts
-    io::write_points(fmt::format("{}/vtk/failed_rank_{}.vtp", folder, simulation.comm().rank()),
-                     std::span(g.position.values).first(g.owned), arrays);
 }
 
 std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::string> warnings)
@@ -129,31 +150,64 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
     bool const root = comm.root();
     Case data = resolved.data;
     double const end = options.until ? *options.until : data.time.duration;
+    install_stop_signals();
+
+    io::CheckpointFolder const checkpoints(options.folder + "/checkpoint", comm);
+    std::optional<io::Checkpoint> found;
+    std::vector<std::string> passed_over;
+    if (options.go_on) {
+        checkpoints.sweep();
+        found = checkpoints.newest(passed_over);
+    }
     auto log = std::make_shared<spdlog::logger>("run");
     if (root) {
         std::filesystem::create_directories(options.folder);
+        remember_case(options.folder, resolved);
         write_case(options.folder, resolved);
         log->sinks().push_back(
-            std::make_shared<spdlog::sinks::basic_file_sink_mt>(options.folder + "/granum.log", true));
+            std::make_shared<spdlog::sinks::basic_file_sink_mt>(options.folder + "/granum.log", !options.go_on));
         log->flush_on(spdlog::level::info);
         log->info("{} on {} ranks, {} s of process", data.title, comm.size(), end);
         for (auto const& warning : resolved.warnings) log->warn("{}", warning);
+        for (auto const& reason : passed_over) log->warn("{}", reason);
+        auto const begin =
+            found ? fmt::format("continues from checkpoint {:06d} at {:.6g} s", found->number, found->label.time)
+                  : std::string("no checkpoint yet: begins at 0 s");
+        if (options.go_on) {
+            log->info("{}", begin);
+            if (!options.quiet && !options.json) {
+                for (auto const& reason : passed_over) fmt::print(stderr, "warning: {}\n", reason);
+                fmt::print(stderr, "{}\n", begin);
+            }
+        }
     }
-    install_stop_signals();
+    comm.barrier();
 
-    Simulation simulation(data, comm);
-    Output output(options.folder, simulation);
+    Simulation simulation(data, comm, found ? &*found : nullptr);
+    io::Sections const written = found && root ? found->read(0) : io::Sections{};
+    Output output(options.folder, simulation, found ? &written : nullptr);
+    Schedule schedule;
+    if (found) {
+        std::vector<Schedule> all;
+        if (root) all = io::values_of<Schedule>(io::find_section(written, "schedule"));
+        std::vector<std::byte> bytes(all.size() * sizeof(Schedule));
+        if (root) std::memcpy(bytes.data(), all.data(), bytes.size());
+        comm.broadcast(bytes);
+        if (bytes.size() != sizeof schedule) throw base::IoError("a checkpoint without a schedule");
+        std::memcpy(&schedule, bytes.data(), sizeof schedule);
+        output.look_at_granules();
+    }
     if (root)
         log->info("{} parcels, granule step {:.3g} s, set up in {:.1f} s", simulation.data().granules.parcels,
                   simulation.granule_dt(), seconds_since(start));
     LiveLine live(root && !options.quiet, end);
     auto const& time = data.time;
-    double next_sample = 0, next_picture = 0, sampled = -1, pictured = -1;
+    WallClock wall_clock(time.checkpoint_interval);
     bool stopped = false;
     // The summary is there from the first picture on, so that a run that is killed, or still going, can be reported.
     auto const save_summary = [&](std::string const& ended) {
         Performance performance;
-        performance.wall = seconds_since(start);
+        performance.wall = schedule.wall + seconds_since(start);
         for (std::size_t s = 0; s < performance.seconds.size(); ++s) {
             auto const stage = static_cast<base::Stage>(s);
             performance.seconds[s] =
@@ -171,37 +225,74 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
     auto const look = [&](bool last) {
         auto const scope = simulation.stopwatch().time(base::Stage::output);
         double const now = simulation.time();
-        if (now >= next_sample * (1 - 1e-12) || (last && sampled < now)) {
+        if (now >= schedule.next_sample * (1 - 1e-12) || (last && schedule.sampled < now)) {
             output.sample();
-            sampled = now;
-            next_sample = now + time.series_interval;
+            schedule.sampled = now;
+            schedule.next_sample = now + time.series_interval;
             if (root) live.update(simulation, output.samples().back());
         }
-        if (now >= next_picture * (1 - 1e-12) || (last && pictured < now)) {
+        if (now >= schedule.next_picture * (1 - 1e-12) || (last && schedule.pictured < now)) {
             output.events();
             output.picture();
             save_summary("running");
-            pictured = now;
-            next_picture = now + time.output_interval;
+            schedule.pictured = now;
+            schedule.next_picture = now + time.output_interval;
         }
     };
-    look(false);
-    while (simulation.time() < end * (1 - 1e-12)) {
-        stopped = comm.max(stop_requested() ? 1L : 0L) > 0;
-        if (stopped) break;
-        double const goal = std::min({end, next_sample, next_picture});
-        try {
-            simulation.step(goal - simulation.time());
-        } catch (base::NumericsError const& error) {
-            live.end();
-            log->error("{}", error.what());
-            write_failed_state(options.folder, simulation);
-            if (comm.size() == 1) save_summary("failed");  // with others it would wait for them
-            throw;
-        }
+    auto const label = [&] {
+        return io::CheckpointLabel{options.program, case_hash(resolved), simulation.time(), simulation.steps(), 0};
+    };
+    double checkpointed = found ? found->label.time : -1;
+    auto const checkpoint = [&] {
+        auto const scope = simulation.stopwatch().time(base::Stage::output);
+        auto const begin = Clock::now();
+        auto sections = simulation.save();
+        for (auto& section : output.save()) sections.push_back(std::move(section));
+        auto saved = schedule;
+        saved.wall += seconds_since(start);
+        sections.push_back(io::section_of("schedule", std::vector<Schedule>{saved}));
+        double bytes = 0;
+        for (auto const& section : sections) bytes += static_cast<double>(section.bytes.size());
+        int const number = checkpoints.write(label(), sections);
+        bytes = comm.sum(bytes);
+        if (root)
+            log->info("checkpoint {:06d} at {:.6g} s: {:.1f} MB in {:.2f} s", number, simulation.time(), 1e-6 * bytes,
+                      seconds_since(begin));
+        checkpointed = simulation.time();
+        wall_clock.written();
+    };
+    try {
         look(false);
+        while (simulation.time() < end * (1 - 1e-12)) {
+            long const wish = comm.max(stop_requested()                                       ? 2L
+                                       : checkpoint_requested() || (root && wall_clock.due()) ? 1L
+                                                                                              : 0L);
+            stopped = wish == 2;
+            if (stopped) break;
+            bool const due = time.checkpoint_every && simulation.time() >= schedule.next_checkpoint * (1 - 1e-12);
+            if (due) schedule.next_checkpoint = simulation.time() + *time.checkpoint_every;
+            if (wish == 1 || (due && simulation.time() > 0)) checkpoint();
+            // Goals are the same whether or not a run ends on one of them, so that a run in two legs has the same
+            // steps.
+            double goal = std::min(schedule.next_sample, schedule.next_picture);
+            if (end < goal * (1 - 1e-12)) goal = end;
+            simulation.step(goal - simulation.time());
+            look(false);
+        }
+        if (checkpointed != simulation.time()) checkpoint();
+        look(true);
+    } catch (base::Error const& error) {
+        live.end();
+        log->error("{}", error.what());
+        bool const all_here = comm.meet(5);
+        if (error.exit == base::Exit::numerics) write_failed_state(options.folder, simulation, label(), all_here);
+        try {
+            if (all_here) save_summary("failed");
+        } catch (base::Error const&) {
+            // A full disk or a state that cannot be summed up: whoever started the ranks marks the summary.
+        }
+        throw;
     }
-    look(true);
     std::string const ended = stopped ? "stopped" : "done";
     auto const warnings = save_summary(ended);
     if (root) {
@@ -211,6 +302,7 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         if (!options.quiet && !options.json) {
             std::ifstream text(options.folder + "/summary.json");
             fmt::print("{}", closing_words(std::string(std::istreambuf_iterator<char>(text), {})));
+            if (stopped) fmt::print("to continue: granum run {}\n", options.folder);
         }
     }
     return stopped ? base::Exit::interrupted : base::Exit::done;

@@ -3,6 +3,7 @@
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
 #include "granum/grid/build.hpp"
+#include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ using grid::Index;
 
 Simulation::~Simulation() = default;
 
-Simulation::Simulation(Case data, par::Communicator const& comm) : case_(std::move(data)), comm_(comm)
+Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint const* saved)
+    : case_(std::move(data)), comm_(comm)
 {
     auto const number = cells(case_);
     auto const& chamber = case_.chamber;
@@ -27,16 +29,25 @@ Simulation::Simulation(Case data, par::Communicator const& comm) : case_(std::mo
     engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
     granule_dt_ = granule_step(case_);
 
-    place_granules();
+    Saved const state = saved ? read(*saved) : Saved{};
+    if (saved)
+        take_granules(state);
+    else
+        place_granules();
     if (case_.spray.present) {
         deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.parcels));
         engine_->attach(*deposits_);
     }
-    engine_->prepare(granules_);
-    if (case_.granules.start == "settled") settle();
+    if (saved) {
+        take_contacts(state);
+    } else {
+        engine_->prepare(granules_);
+        if (case_.granules.start == "settled") settle();
+    }
     if (case_.gas.present) {
         grid_ = grid::build(chamber, number, case_.periodic, slabs_, comm_.rank());
-        start_gas();
+        make_gas();
+        if (!saved) start_gas();
     }
     if (case_.spray.present) {
         nozzles_ = nozzles(case_);
@@ -57,7 +68,12 @@ Simulation::Simulation(Case data, par::Communicator const& comm) : case_(std::mo
             for (double& s : share) s /= sum;
             nozzle_weights_.push_back(std::move(share));
         }
-        if (case_.start.quasi_steady) start_deposits();
+        if (case_.start.quasi_steady && !saved) start_deposits();
+    }
+    if (saved) {
+        take_process(state);
+        audit();
+        return;
     }
     auto stock = stocks();
     comm_.sum(stock);
@@ -103,6 +119,7 @@ void Simulation::gas_step(double dt)
     grid::Field voidage;
     {
         auto const scope = stopwatch_.time(base::Stage::exchange);
+        if (comm_.size() > 1) engine_->bring_home(granules_);  // so that who owns a granule follows from its place
         mapping_->locate(granules_);
         voidage = exchange_->voidage(granules_);
         exchange_->share(granules_, gas_, dt, seen_, sources_);
@@ -114,11 +131,14 @@ void Simulation::gas_step(double dt)
             potential_[row] = local_drying_potential(seen_.temperature[row], seen_.vapour_fraction[row]);
         nozzle_air(dt);
         fly_droplets(dt);
+        std::size_t const before = events_.size();
         drying_->advance(granules_, *deposits_,
                          {seen_.temperature, seen_.vapour_fraction, potential_, seen_.slip, seen_.sherwood}, dt,
                          time_ + dt, evaporated_, events_);
+        std::stable_sort(events_.begin() + static_cast<std::ptrdiff_t>(before), events_.end(),
+                         [](auto const& a, auto const& b) { return a.granule < b.granule; });
         auto const stencils = mapping_->stencils();
-        for (std::size_t row = 0; row < granules_.owned; ++row) {
+        for (std::size_t const row : mapping_->order()) {
             if (evaporated_[row] == 0) continue;
             double const rate = evaporated_[row] / dt;
             mine_.evaporated += evaporated_[row];
@@ -255,7 +275,8 @@ void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)
 std::array<double, 3> Simulation::stocks() const
 {
     std::array<double, 3> stock{};
-    for (std::size_t row = 0; granules_.groups.process && row < granules_.owned; ++row) {
+    auto const order = granules_.groups.process ? particle::rows_by_identity(granules_) : std::vector<std::uint32_t>{};
+    for (std::size_t const row : order) {
         stock[0] += granules_.layer_mass[row] + granules_.solute[row];
         stock[1] += granules_.water[row];
         stock[2] += granules_.enthalpy[row];

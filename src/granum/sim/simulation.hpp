@@ -9,6 +9,7 @@
 #include "granum/dem/engine.hpp"
 #include "granum/drying/drying.hpp"
 #include "granum/gas/flow.hpp"
+#include "granum/io/checkpoint.hpp"
 #include "granum/material/wet_bulb_table.hpp"
 #include "granum/sim/balance.hpp"
 #include "granum/sim/case.hpp"
@@ -51,8 +52,9 @@ struct Readings
 class Simulation
 {
   public:
-    //! Builds the state at time zero. Collective. Throws as the rooms do.
-    Simulation(Case data, par::Communicator const& comm);
+    //! Builds the state at time zero or, where there is one, the state that `saved` holds (of the same case, written by
+    //! any number of ranks). Collective. Throws as the rooms do.
+    Simulation(Case data, par::Communicator const& comm, io::Checkpoint const* saved = nullptr);
     ~Simulation();
 
     //! One coupling step of at most `longest` seconds. Collective.
@@ -81,11 +83,25 @@ class Simulation
     long unconverged_steps() const { return unconverged_; }  //!< gas steps whose pressure missed its tolerance
     long clamped_cells() const { return exchange_ ? exchange_->clamped_cells() : 0; }
 
+    //! All that the next step depends on, this rank's part: what a checkpoint holds.
+    io::Sections save();
+
     //! The events since the last call, of all ranks, on rank 0 (empty elsewhere). Collective.
     std::vector<drying::Event> take_events();
 
   private:
+    struct Saved;
+    Saved read(io::Checkpoint const& from) const;
+    void take_granules(Saved const& saved);
+    void take_contacts(Saved const& saved);
+    void take_process(Saved const& saved);
+    template <class Visit>
+    void each_common_number(Visit&& visit);  //!< scalars of the state that are the same on every rank
+    template <class Visit>
+    void each_share(Visit&& visit);  //!< scalars of which every rank has its share
+
     void place_granules();
+    void make_gas();
     void start_gas();
     void start_deposits();
     void settle();

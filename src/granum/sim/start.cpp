@@ -105,15 +105,24 @@ void Simulation::settle()
     engine_->prepare(granules_);
 }
 
+void Simulation::make_gas()
+{
+    auto const& gas = case_.gas;
+    if (!gas.closed) {
+        balance_ = balance(case_);
+        wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
+    }
+    solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
+    mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, gas.smoothing);
+    exchange_ = std::make_unique<coupling::Exchange>(exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
+                                                     gas.pressure, case_.granules.heat_capacity, case_.granules.frozen);
+}
+
 void Simulation::start_gas()
 {
     auto const& gas = case_.gas;
     auto const& inlet = gas.inlet;
     bool const flows = !gas.closed;
-    if (flows) {
-        balance_ = balance(case_);
-        wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
-    }
     bool const steady = flows && case_.start.quasi_steady;
     double const temperature = case_.start.gas_temperature ? *case_.start.gas_temperature
                                : steady                    ? balance_.outlet_temperature
@@ -124,10 +133,6 @@ void Simulation::start_gas()
                                                     : temperature) +
                        case_.start.temperature_offset;
 
-    solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
-    mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, gas.smoothing);
-    exchange_ = std::make_unique<coupling::Exchange>(exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
-                                                     gas.pressure, case_.granules.heat_capacity, case_.granules.frozen);
     for (std::size_t row = 0; row < granules_.owned; ++row) {
         granules_.temperature[row] = bed;
         granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (bed - math::zero_celsius);

@@ -8,13 +8,18 @@ namespace granum::sim
 {
 namespace
 {
-volatile std::sig_atomic_t asked = 0;
+volatile std::sig_atomic_t asked = 0, checkpoint = 0;
 
 //! The second request from a keyboard ends at once: whoever insists must not wait for the end of a step.
 void ask(int signal)
 {
     if (asked && signal != SIGUSR1) std::_Exit(130);
     asked = 1;
+}
+
+void ask_for_checkpoint(int)
+{
+    checkpoint = 1;
 }
 }
 
@@ -25,6 +30,15 @@ void install_stop_signals()
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     for (int const signal : std::array{SIGUSR1, SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    action.sa_handler = ask_for_checkpoint;
+    sigaction(SIGUSR2, &action, nullptr);
+}
+
+bool checkpoint_requested()
+{
+    bool const wanted = checkpoint != 0;
+    checkpoint = 0;
+    return wanted;
 }
 
 bool stop_requested()

@@ -48,7 +48,8 @@ void DropletSurroundings::prepare(gas::Solver const& solver, gas::State const& s
     }
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
     auto next = first_;
-    for (std::size_t row = 0; row < granules.owned; ++row) rows_[next[cell[row]]++] = static_cast<std::uint32_t>(row);
+    // By identity within a cell, so that which granule a draw hits does not depend on the order in memory.
+    for (std::uint32_t const row : mapping_.order()) rows_[next[cell[row]]++] = row;
 }
 
 spray::Seen DropletSurroundings::seen(Vec3 const& x) const

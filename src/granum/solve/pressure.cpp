@@ -25,9 +25,7 @@ struct Pressure::Inside
     Method method;
     std::optional<Multigrid> multigrid;
     Field diagonal, residual, direction, product, better;
-    int fresh_iterations = -1;  //!< of the first solve after a set-up; -1: none yet
-    int solves = 0;             //!< since the set-up
-    bool stale = true;
+    Memory memory;  //!< fresh_iterations: of the first solve after a set-up, -1: none yet; solves: since the set-up
 
     Inside(grid::Grid const& g, par::Communicator const& c, Method m)
         : grid(g),
@@ -97,16 +95,11 @@ struct Pressure::Inside
     //! feels.
     void set_up(System const& system, bool free)
     {
-        if (free) {
-            Field raised = diagonal;
+        Field raised = diagonal;
+        if (free)
             for (double& value : raised) value *= 1 + 1e-4;
-            multigrid->set_up(raised, system.link);
-        } else {
-            multigrid->set_up(diagonal, system.link);
-        }
-        fresh_iterations = -1;
-        solves = 0;
-        stale = false;
+        memory = {.set_up = true, .stale = false, .diagonal = std::move(raised), .link = system.link};
+        multigrid->set_up(memory.diagonal, memory.link);
     }
 
     //! Mean over the cells that take part.
@@ -140,6 +133,18 @@ Method Pressure::method() const
     return inside_->method;
 }
 
+Pressure::Memory const& Pressure::memory() const
+{
+    return inside_->memory;
+}
+
+void Pressure::recall(Memory memory)
+{
+    inside_->memory = std::move(memory);
+    if (inside_->multigrid && inside_->memory.set_up)
+        inside_->multigrid->set_up(inside_->memory.diagonal, inside_->memory.link);
+}
+
 Outcome Pressure::solve(System const& system, Field& x, double tolerance, double floor)
 {
     Inside& in = *inside_;
@@ -147,7 +152,7 @@ Outcome Pressure::solve(System const& system, Field& x, double tolerance, double
     bool const free = in.prepare(system);
     double const mean = free ? in.mean(system.right) : 0;
     auto right = [&](Index c) { return in.diagonal[c] > 0 ? system.right[c] - mean : 0.0; };
-    if (in.multigrid && (in.stale || in.solves >= most_solves_per_set_up)) in.set_up(system, free);
+    if (in.multigrid && (in.memory.stale || in.memory.solves >= most_solves_per_set_up)) in.set_up(system, free);
 
     double norm2 = 0;
     each([&](Index c) {
@@ -192,9 +197,10 @@ Outcome Pressure::solve(System const& system, Field& x, double tolerance, double
     }
     in.refresh(x);
 
-    ++in.solves;
-    if (in.fresh_iterations < 0) in.fresh_iterations = outcome.iterations;
-    in.stale = outcome.iterations > in.fresh_iterations + patience;
+    auto& memory = in.memory;
+    ++memory.solves;
+    if (memory.fresh_iterations < 0) memory.fresh_iterations = outcome.iterations;
+    memory.stale = outcome.iterations > memory.fresh_iterations + patience;
     return outcome;
 }
 }

@@ -56,6 +56,18 @@ class Pressure
 
     Method method() const;
 
+    //! What the next solve depends on beside its arguments: the matrix that the preconditioner was made from, and how
+    //! it has served since. With it recalled, a new object on the same ranks goes on with the same bits.
+    struct Memory
+    {
+        bool set_up = false, stale = true;
+        int fresh_iterations = -1, solves = 0;
+        Field diagonal;  //!< empty where nothing is set up
+        FaceField link;
+    };
+    Memory const& memory() const;
+    void recall(Memory memory);  //!< Collective.
+
   private:
     struct Inside;
     std::unique_ptr<Inside> inside_;

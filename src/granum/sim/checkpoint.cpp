@@ -1,0 +1,304 @@
+// What a checkpoint holds of the simulation, in one place: everything that the next step depends on.
+//
+// Not held is what every step computes anew before it reads it: sources, what granules see, stencils, coverage. Numbers
+// of which every rank has a share are given back share by share on as many ranks; on another number of ranks the first
+// takes their sum. Fields go back slice by slice along x.
+#include "granum/base/error.hpp"
+#include "granum/sim/build.hpp"
+#include "granum/sim/simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+
+namespace granum::sim
+{
+namespace
+{
+//! A field of the gas on some rank, with the slices along x that it has.
+struct GasPart
+{
+    int shift = 0;
+    std::array<int, 3> n{};
+    std::map<std::string, std::vector<double>> fields;
+};
+
+std::array<std::pair<char const*, grid::Field*>, 14> fields_of(gas::State& gas)
+{
+    return {{{"mass", &gas.mass},
+             {"vapour", &gas.vapour},
+             {"enthalpy", &gas.enthalpy},
+             {"velocity_x", &gas.velocity[0]},
+             {"velocity_y", &gas.velocity[1]},
+             {"velocity_z", &gas.velocity[2]},
+             {"mass_flux_x", &gas.mass_flux[0]},
+             {"mass_flux_y", &gas.mass_flux[1]},
+             {"mass_flux_z", &gas.mass_flux[2]},
+             {"pressure", &gas.pressure},
+             {"voidage", &gas.voidage},
+             {"temperature", &gas.temperature},
+             {"vapour_fraction", &gas.vapour_fraction},
+             {"density", &gas.density}}};
+}
+
+//! The histories of contacts as bytes of the engine's records.
+template <class Engine>
+io::Section contacts_of(Engine& engine, particle::Store& granules)
+{
+    if constexpr (requires { engine.save_contacts(granules); })
+        return io::section_of("contacts", engine.save_contacts(granules));
+    else
+        return {"contacts", {}};
+}
+
+//! Gives the engine those records of `sections` that name a granule of this rank, and lets it go on from there.
+template <class Engine>
+void resume(Engine& engine, particle::Store& granules, std::vector<io::Section> const& sections)
+{
+    if constexpr (requires { engine.save_contacts(granules); }) {
+        auto here = granules.id.values;
+        here.resize(granules.owned);
+        std::sort(here.begin(), here.end());
+        auto const owned = [&](particle::Id id) { return std::binary_search(here.begin(), here.end(), id); };
+        decltype(engine.save_contacts(granules)) records;
+        using Record = typename decltype(records)::value_type;
+        for (auto const& section : sections)
+            for (auto const& record : io::values_of<Record>(section))
+                if (owned(record.low) || owned(record.high)) records.push_back(record);
+        engine.resume(granules, records);
+    } else {
+        engine.prepare(granules);
+    }
+}
+}
+
+//! What all ranks had written, as much of it as this rank takes.
+struct Simulation::Saved
+{
+    bool same_ranks = false;
+    particle::Store granules;
+    std::vector<io::Section> contacts;
+    std::vector<std::uint64_t> deposit_owners;
+    std::vector<drying::Deposit> deposits;
+    std::vector<spray::Droplet> droplets;
+    std::vector<drying::Event> events;
+    std::vector<double> common, shares;
+    std::vector<GasPart> gas;  //!< by the rank that wrote
+    std::vector<double> preconditioner;
+};
+
+template <class Visit>
+void Simulation::each_common_number(Visit&& visit)
+{
+    visit(case_.granules.parcels);
+    visit(time_), visit(steps_), visit(granule_steps_), visit(unconverged_);
+    for (Ledger* ledger : {&ledgers_.solids, &ledgers_.water, &ledgers_.energy})
+        visit(ledger->start), visit(ledger->reference);
+    visit(ledgers_.momentum);
+    visit(last_.pressure_iterations), visit(last_.pressure_converged);
+    auto& watch = engine_->watch();
+    visit(watch.largest_overlap), visit(watch.warned_overlaps), visit(watch.rebuilds);
+}
+
+template <class Visit>
+void Simulation::each_share(Visit&& visit)
+{
+    for (auto* sums : {&in_, &out_})
+        for (double& sum : *sums) visit(sum);
+    visit(mine_.solids), visit(mine_.water), visit(mine_.deposited), visit(mine_.walls), visit(mine_.overspray);
+    visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
+    visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);
+    visit(last_.enthalpy_in), visit(last_.enthalpy_out);
+    auto& watch = engine_->watch();
+    visit(watch.dissipated);
+}
+
+io::Sections Simulation::save()
+{
+    io::Sections out;
+    std::vector<double> common, shares;
+    each_common_number([&](auto const& number) { common.push_back(static_cast<double>(number)); });
+    each_share([&](auto const& number) { shares.push_back(static_cast<double>(number)); });
+    out.push_back(io::section_of("common", common));
+    out.push_back(io::section_of("shares", shares));
+
+    particle::for_each_column(granules_, [&](auto const& column) {
+        auto const bytes = std::as_bytes(std::span(column.values).first(granules_.owned));
+        out.push_back({"granules." + std::string(column.traits.name), {bytes.begin(), bytes.end()}});
+    });
+    out.push_back(contacts_of(*engine_, granules_));
+    if (case_.spray.present) {
+        std::vector<std::uint64_t> owners;
+        std::vector<drying::Deposit> deposits;
+        for (std::size_t row = 0; row < granules_.owned; ++row)
+            for (auto const& deposit : deposits_->on(granules_.id[row])) {
+                owners.push_back(granules_.id[row]);
+                deposits.push_back(deposit);
+            }
+        out.push_back(io::section_of("deposits.granule", owners));
+        out.push_back(io::section_of("deposits", deposits));
+        out.push_back(io::section_of("droplets", droplets_));
+        out.push_back(io::section_of("events", events_));
+    }
+    if (has_gas()) {
+        out.push_back(io::section_of("grid", std::vector<int>{grid_.shift, grid_.n[0], grid_.n[1], grid_.n[2]}));
+        for (auto const& [name, field] : fields_of(gas_))
+            out.push_back(io::section_of("gas." + std::string(name), *field));
+        out.push_back(io::section_of("gas.correction", solver_->correction()));
+        auto const& memory = solver_->pressure_memory();
+        std::vector<double> numbers{double(memory.set_up), double(memory.stale), double(memory.fresh_iterations),
+                                    double(memory.solves)};
+        if (memory.set_up)
+            for (auto const* field : {&memory.diagonal, &memory.link[0], &memory.link[1], &memory.link[2]})
+                numbers.insert(numbers.end(), field->begin(), field->end());
+        out.push_back(io::section_of("preconditioner", numbers));
+    }
+    return out;
+}
+
+Simulation::Saved Simulation::read(io::Checkpoint const& from) const
+{
+    Saved out;
+    int const rank = comm_.rank();
+    out.same_ranks = from.label.ranks == comm_.size();
+    out.granules.keep(column_groups(case_));
+    auto const append = [](auto& all, auto const& more) { all.insert(all.end(), more.begin(), more.end()); };
+    for (int writer = 0; writer < from.label.ranks; ++writer) {
+        auto const sections = from.read(writer);
+        auto const find = [&](std::string const& name) -> io::Section const& {
+            return io::find_section(sections, name);
+        };
+        bool const mine = out.same_ranks && writer == rank;
+
+        // On as many ranks each takes its own; otherwise who owns the place.
+        auto const position = io::values_of<math::Vec3>(find("granules.position"));
+        std::vector<std::size_t> rows;
+        for (std::size_t row = 0; row < position.size(); ++row)
+            if (out.same_ranks ? mine : slabs_.owner(position[row].x) == rank) rows.push_back(row);
+        std::size_t const first = out.granules.rows();
+        out.granules.resize(first + rows.size());
+        particle::for_each_column(out.granules, [&](auto& column) {
+            using Value = std::decay_t<decltype(column.values[0])>;
+            auto const values = io::values_of<Value>(find("granules." + std::string(column.traits.name)));
+            if (values.size() != position.size())
+                throw base::IoError(fmt::format("{}: column {} has {} rows, others {}", from.folder, column.traits.name,
+                                                values.size(), position.size()));
+            for (std::size_t k = 0; k < rows.size(); ++k) column.values[first + k] = values[rows[k]];
+        });
+        out.contacts.push_back(find("contacts"));
+
+        auto const shares = io::values_of<double>(find("shares"));
+        // The same on every rank, but for the largest of something that each has seen.
+        auto const common = io::values_of<double>(find("common"));
+        out.common.resize(common.size(), -1);
+        for (std::size_t k = 0; k < common.size(); ++k) out.common[k] = std::max(out.common[k], common[k]);
+        if (mine || (!out.same_ranks && rank == 0)) {
+            out.shares.resize(std::max(out.shares.size(), shares.size()));
+            for (std::size_t k = 0; k < shares.size(); ++k) out.shares[k] += shares[k];
+            if (case_.spray.present) append(out.events, io::values_of<drying::Event>(find("events")));
+        }
+        if (case_.spray.present) {
+            append(out.deposit_owners, io::values_of<std::uint64_t>(find("deposits.granule")));
+            append(out.deposits, io::values_of<drying::Deposit>(find("deposits")));
+            for (auto const& droplet : io::values_of<spray::Droplet>(find("droplets")))
+                if (out.same_ranks ? mine : slabs_.owner(droplet.position.x) == rank) out.droplets.push_back(droplet);
+        }
+        if (case_.gas.present) {
+            auto const place = io::values_of<int>(find("grid"));
+            if (place.size() != 4) throw base::IoError(fmt::format("{}: the grid has no place", from.folder));
+            GasPart part{.shift = place[0], .n = {place[1], place[2], place[3]}, .fields = {}};
+            for (auto const& section : sections)
+                if (section.name.starts_with("gas.")) part.fields[section.name] = io::values_of<double>(section);
+            out.gas.push_back(std::move(part));
+            if (mine) out.preconditioner = io::values_of<double>(find("preconditioner"));
+        }
+    }
+    out.granules.owned = out.granules.rows();
+    return out;
+}
+
+void Simulation::take_granules(Saved const& saved)
+{
+    granules_ = saved.granules;
+    case_.granules.parcels = static_cast<long>(saved.common.at(0));
+}
+
+void Simulation::take_contacts(Saved const& saved)
+{
+    if (case_.spray.present) {
+        auto here = granules_.id.values;
+        std::sort(here.begin(), here.end());
+        for (std::size_t k = 0; k < saved.deposits.size() && k < saved.deposit_owners.size(); ++k) {
+            auto const id = saved.deposit_owners[k];
+            if (std::binary_search(here.begin(), here.end(), id)) deposits_->on(id).push_back(saved.deposits[k]);
+        }
+    }
+    resume(*engine_, granules_, saved.contacts);
+}
+
+void Simulation::take_process(Saved const& saved)
+{
+    auto const take = [](std::vector<double> const& from) {
+        return [&from, at = std::size_t{0}](auto& number) mutable {
+            if (at >= from.size()) throw base::IoError("a checkpoint that holds fewer numbers than this version needs");
+            number = static_cast<std::decay_t<decltype(number)>>(from[at++]);
+        };
+    };
+    each_common_number(take(saved.common));
+    if (!saved.shares.empty()) each_share(take(saved.shares));
+    droplets_ = saved.droplets;
+    events_ = saved.events;
+    if (!has_gas()) return;
+
+    // Slices along x from whoever owned them; those outside the domain are ghosts of its ends.
+    auto const gather = [&](std::string const& name) {
+        grid::Field field = grid_.make_field();
+        if (saved.same_ranks) {
+            auto const& mine = saved.gas[static_cast<std::size_t>(comm_.rank())].fields;
+            auto const found = mine.find(name);
+            if (found == mine.end() || found->second.size() != field.size())
+                throw base::IoError(fmt::format("a checkpoint whose {} does not fit", name));
+            return found->second;
+        }
+        for (int i = -1; i <= grid_.n[0]; ++i) {
+            int const global = i + grid_.shift;
+            GasPart const* owner = nullptr;
+            for (auto const& part : saved.gas) {
+                int const low = part.shift == 0 ? -1 : 0;
+                int const high = part.shift + part.n[0] == grid_.global[0] ? part.n[0] : part.n[0] - 1;
+                if (global - part.shift >= low && global - part.shift <= high) owner = &part;
+            }
+            auto const found = owner ? owner->fields.find(name) : decltype(owner->fields.find(name)){};
+            auto const strange = [&] { return base::IoError(fmt::format("a checkpoint whose {} does not fit", name)); };
+            if (!owner || found == owner->fields.end() || owner->n[1] != grid_.n[1] || owner->n[2] != grid_.n[2])
+                throw strange();
+            grid::Grid there;
+            there.n = owner->n;
+            if (found->second.size() != there.size()) throw strange();
+            for (int k = -1; k <= grid_.n[2]; ++k)
+                for (int j = -1; j <= grid_.n[1]; ++j)
+                    field[grid_.at(i, j, k)] = found->second[there.at(global - owner->shift, j, k)];
+        }
+        return field;
+    };
+    for (auto const& [name, field] : fields_of(gas_)) *field = gather("gas." + std::string(name));
+    std::optional<solve::Pressure::Memory> memory;
+    if (saved.same_ranks && saved.preconditioner.size() >= 4) {
+        auto const& numbers = saved.preconditioner;
+        memory.emplace();
+        memory->set_up = numbers[0] != 0, memory->stale = numbers[1] != 0;
+        memory->fresh_iterations = static_cast<int>(numbers[2]), memory->solves = static_cast<int>(numbers[3]);
+        if (memory->set_up) {
+            if (numbers.size() != 4 + 4 * grid_.size())
+                throw base::IoError("a checkpoint whose pressure solver is of another grid");
+            auto at = numbers.begin() + 4;
+            for (auto* field : {&memory->diagonal, &memory->link[0], &memory->link[1], &memory->link[2]}) {
+                field->assign(at, at + static_cast<std::ptrdiff_t>(grid_.size()));
+                at += static_cast<std::ptrdiff_t>(grid_.size());
+            }
+        }
+    }
+    solver_->recall(gather("gas.correction"), std::move(memory));
+}
+}

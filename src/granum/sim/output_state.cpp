@@ -1,0 +1,51 @@
+// What the files of a run held at a checkpoint, and how they go on from there.
+#include "granum/sim/output.hpp"
+
+#include <limits>
+
+namespace granum::sim
+{
+namespace
+{
+std::vector<char> letters(std::string const& text)
+{
+    return {text.begin(), text.end()};
+}
+std::string text_of(io::Section const& section)
+{
+    auto const chars = io::values_of<char>(section);
+    return {chars.begin(), chars.end()};
+}
+}
+
+io::Sections Output::save() const
+{
+    if (!root_) return {};
+    io::Sections out{io::section_of("output.samples", samples_),
+                     io::section_of("output.layers", layers_),
+                     io::section_of("output.counts", std::vector<long>{event_count_, pictures_}),
+                     io::section_of("output.granules", letters(granules_.entries())),
+                     io::section_of("output.droplets", letters(droplets_.entries())),
+                     io::section_of("output.gas", letters(gas_.entries()))};
+    if (event_log_) out.push_back(io::section_of("output.events", std::vector<io::RowLog::Mark>{event_log_->mark()}));
+    return out;
+}
+
+void Output::go_on(io::Sections const& saved)
+{
+    auto const find = [&](char const* name) -> io::Section const& { return io::find_section(saved, name); };
+    samples_ = io::values_of<Sample>(find("output.samples"));
+    for (auto const& sample : samples_) write(sample);
+    layers_ = io::values_of<product::LayerSum>(find("output.layers"));
+    auto const counts = io::values_of<long>(find("output.counts"));
+    event_count_ = counts.at(0), pictures_ = static_cast<int>(counts.at(1));
+    granules_.go_on(text_of(find("output.granules")));
+    droplets_.go_on(text_of(find("output.droplets")));
+    gas_.go_on(text_of(find("output.gas")));
+    if (event_log_) {
+        event_log_->go_on(io::values_of<io::RowLog::Mark>(find("output.events")).at(0),
+                          [&](std::span<double const> row) { events_->append(row); });
+        events_->flush();
+    }
+}
+}
