@@ -46,8 +46,8 @@ std::array<std::pair<char const*, grid::Field*>, 14> fields_of(gas::State& gas)
 template <class Engine>
 io::Section contacts_of(Engine& engine, particle::Store& granules)
 {
-    if constexpr (requires { engine.save_contacts(granules); })
-        return io::section_of("contacts", engine.save_contacts(granules));
+    if constexpr (requires { engine.save_contacts(); })
+        return io::section_of("contacts", engine.save_contacts());
     else
         return {"contacts", {}};
 }
@@ -56,12 +56,12 @@ io::Section contacts_of(Engine& engine, particle::Store& granules)
 template <class Engine>
 void resume(Engine& engine, particle::Store& granules, std::vector<io::Section> const& sections)
 {
-    if constexpr (requires { engine.save_contacts(granules); }) {
+    if constexpr (requires { engine.save_contacts(); }) {
         auto here = granules.id.values;
         here.resize(granules.owned);
         std::sort(here.begin(), here.end());
         auto const owned = [&](particle::Id id) { return std::binary_search(here.begin(), here.end(), id); };
-        decltype(engine.save_contacts(granules)) records;
+        decltype(engine.save_contacts()) records;
         using Record = typename decltype(records)::value_type;
         for (auto const& section : sections)
             for (auto const& record : io::values_of<Record>(section))
