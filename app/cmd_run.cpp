@@ -3,6 +3,7 @@
 
 #include "cores.hpp"
 #include "granum/base/error.hpp"
+#include "granum/io/folder_lock.hpp"
 #include "granum/io/units.hpp"
 #include "granum/report/report.hpp"
 #include "granum/sim/build.hpp"
@@ -58,6 +59,7 @@ Place choose_place(Wish const& wish, sim::ResolvedCase const& resolved)
         throw base::CaseError(
             {{folder, 0, "", "exists already and holds no run to go on with", {"choose another folder with -o"}}});
     if (wish.fresh) {
+        io::FolderLock const nobody_at_work(folder + "/checkpoint", 0);
         fs::remove_all(folder + "/checkpoint");
         fs::remove_all(folder + "/vtk");
         fs::remove(folder + "/summary.json");

@@ -42,34 +42,17 @@ std::array<std::pair<char const*, grid::Field*>, 14> fields_of(gas::State& gas)
              {"density", &gas.density}}};
 }
 
-//! The histories of contacts as bytes of the engine's records.
-template <class Engine>
-io::Section contacts_of(Engine& engine, particle::Store& granules)
+//! The saved contacts of `sections` that name a granule of this rank.
+std::vector<dem::ContactRecord> contacts_of(particle::Store const& granules, std::vector<io::Section> const& sections)
 {
-    if constexpr (requires { engine.save_contacts(); })
-        return io::section_of("contacts", engine.save_contacts());
-    else
-        return {"contacts", {}};
-}
-
-//! Gives the engine those records of `sections` that name a granule of this rank, and lets it go on from there.
-template <class Engine>
-void resume(Engine& engine, particle::Store& granules, std::vector<io::Section> const& sections)
-{
-    if constexpr (requires { engine.save_contacts(); }) {
-        auto here = granules.id.values;
-        here.resize(granules.owned);
-        std::sort(here.begin(), here.end());
-        auto const owned = [&](particle::Id id) { return std::binary_search(here.begin(), here.end(), id); };
-        decltype(engine.save_contacts()) records;
-        using Record = typename decltype(records)::value_type;
-        for (auto const& section : sections)
-            for (auto const& record : io::values_of<Record>(section))
-                if (owned(record.low) || owned(record.high)) records.push_back(record);
-        engine.resume(granules, records);
-    } else {
-        engine.prepare(granules);
-    }
+    auto here = granules.id.values;
+    std::sort(here.begin(), here.end());
+    auto const owned = [&](particle::Id id) { return std::binary_search(here.begin(), here.end(), id); };
+    std::vector<dem::ContactRecord> out;
+    for (auto const& section : sections)
+        for (auto const& record : io::values_of<dem::ContactRecord>(section))
+            if (owned(record.low) || owned(record.high)) out.push_back(record);
+    return out;
 }
 }
 
@@ -127,7 +110,7 @@ io::Sections Simulation::save()
         auto const bytes = std::as_bytes(std::span(column.values).first(granules_.owned));
         out.push_back({"granules." + std::string(column.traits.name), {bytes.begin(), bytes.end()}});
     });
-    out.push_back(contacts_of(*engine_, granules_));
+    out.push_back(io::section_of("contacts", engine_->save_contacts()));
     if (case_.spray.present) {
         std::vector<std::uint64_t> owners;
         std::vector<drying::Deposit> deposits;
@@ -157,13 +140,14 @@ io::Sections Simulation::save()
     return out;
 }
 
-Simulation::Saved Simulation::read(io::Checkpoint const& from) const
+std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& from) const
 {
-    Saved out;
+    auto const all = std::make_shared<Saved>();
+    Saved& out = *all;
     int const rank = comm_.rank();
     out.same_ranks = from.label.ranks == comm_.size();
     out.granules.keep(column_groups(case_));
-    auto const append = [](auto& all, auto const& more) { all.insert(all.end(), more.begin(), more.end()); };
+    auto const append = [](auto& list, auto const& more) { list.insert(list.end(), more.begin(), more.end()); };
     for (int writer = 0; writer < from.label.ranks; ++writer) {
         auto const sections = from.read(writer);
         auto const find = [&](std::string const& name) -> io::Section const& {
@@ -215,7 +199,7 @@ Simulation::Saved Simulation::read(io::Checkpoint const& from) const
         }
     }
     out.granules.owned = out.granules.rows();
-    return out;
+    return all;
 }
 
 void Simulation::take_granules(Saved const& saved)
@@ -234,7 +218,7 @@ void Simulation::take_contacts(Saved const& saved)
             if (std::binary_search(here.begin(), here.end(), id)) deposits_->on(id).push_back(saved.deposits[k]);
         }
     }
-    resume(*engine_, granules_, saved.contacts);
+    engine_->resume(granules_, contacts_of(granules_, saved.contacts));
 }
 
 void Simulation::take_process(Saved const& saved)

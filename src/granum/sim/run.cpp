@@ -1,6 +1,7 @@
 #include "granum/sim/run.hpp"
 
 #include "granum/io/checkpoint.hpp"
+#include "granum/io/folder_lock.hpp"
 #include "granum/sim/case_reader.hpp"
 #include "granum/sim/continuation.hpp"
 #include "granum/sim/output.hpp"
@@ -152,6 +153,18 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
     double const end = options.until ? *options.until : data.time.duration;
     install_stop_signals();
 
+    std::optional<io::FolderLock> lock;  // ranks of a run that was killed may still be on their way out
+    std::string refused;
+    if (root) {
+        try {
+            std::filesystem::create_directories(options.folder + "/checkpoint");
+            lock.emplace(options.folder + "/checkpoint", 20);
+        } catch (std::exception const& error) {
+            refused = error.what();
+        }
+    }
+    if (comm.max(refused.empty() ? 0L : 1L) > 0)
+        throw base::IoError(root ? refused : "stopped: rank 0 cannot use the folder");
     io::CheckpointFolder const checkpoints(options.folder + "/checkpoint", comm);
     std::optional<io::Checkpoint> found;
     std::vector<std::string> passed_over;

@@ -29,9 +29,9 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
     granule_dt_ = granule_step(case_);
 
-    Saved const state = saved ? read(*saved) : Saved{};
+    auto const state = saved ? read(*saved) : nullptr;
     if (saved)
-        take_granules(state);
+        take_granules(*state);
     else
         place_granules();
     if (case_.spray.present) {
@@ -39,7 +39,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         engine_->attach(*deposits_);
     }
     if (saved) {
-        take_contacts(state);
+        take_contacts(*state);
     } else {
         engine_->prepare(granules_);
         if (case_.granules.start == "settled") settle();
@@ -71,7 +71,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         if (case_.start.quasi_steady && !saved) start_deposits();
     }
     if (saved) {
-        take_process(state);
+        take_process(*state);
         audit();
         return;
     }

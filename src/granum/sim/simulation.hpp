@@ -91,7 +91,7 @@ class Simulation
 
   private:
     struct Saved;
-    Saved read(io::Checkpoint const& from) const;
+    std::shared_ptr<Saved const> read(io::Checkpoint const& from) const;
     void take_granules(Saved const& saved);
     void take_contacts(Saved const& saved);
     void take_process(Saved const& saved);

@@ -151,6 +151,10 @@ series_interval = "5 us"
     ASSERT_GT(series.rows(), 2u);
     EXPECT_NEAR(series.find("kinetic_energy")->front(), 1445 * 3.14159265 / 6 * 8e-9 * 9e4, 1e-6) << "2 m v^2 / 2";
     EXPECT_GE(complete_files(run_, "granules.pvd"), 2u);
+    EXPECT_EQ(json::parse(scene::text_of(in_run("summary.json")))["ended"], "failed") << "on any number of ranks";
+    for (int rank = 0; rank < GetParam(); ++rank)
+        EXPECT_TRUE(fs::exists(in_run("checkpoint/failed/000000/rank_0000" + std::to_string(rank))))
+            << "all have written";
     expect_report();
     EXPECT_EQ(scene::processes_with(run_), 0) << "nobody waits for the rank that failed";
 }
