@@ -62,6 +62,8 @@ struct Simulation::Saved
     bool same_ranks = false;
     particle::Store granules;
     std::vector<io::Section> contacts;
+    std::vector<double> wall_time;  //!< one number, s
+    std::vector<geometry::ServoState> servos;
     std::vector<std::uint64_t> deposit_owners;
     std::vector<drying::Deposit> deposits;
     std::vector<spray::Droplet> droplets;
@@ -111,6 +113,8 @@ io::Sections Simulation::save()
         out.push_back({"granules." + std::string(column.traits.name), {bytes.begin(), bytes.end()}});
     });
     out.push_back(io::section_of("contacts", engine_->save_contacts()));
+    out.push_back(io::section_of("walls.time", std::vector<double>{engine_->time()}));
+    out.push_back(io::section_of("walls.servos", engine_->servos()));
     if (case_.spray.present) {
         std::vector<std::uint64_t> owners;
         std::vector<drying::Deposit> deposits;
@@ -172,6 +176,8 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
         });
         out.contacts.push_back(find("contacts"));
 
+        out.wall_time = io::values_of<double>(find("walls.time"));
+        out.servos = io::values_of<geometry::ServoState>(find("walls.servos"));
         auto const shares = io::values_of<double>(find("shares"));
         // The same on every rank, but for the largest of something that each has seen.
         auto const common = io::values_of<double>(find("common"));
@@ -218,6 +224,7 @@ void Simulation::take_contacts(Saved const& saved)
             if (std::binary_search(here.begin(), here.end(), id)) deposits_->on(id).push_back(saved.deposits[k]);
         }
     }
+    engine_->set_clock(saved.wall_time.at(0), saved.servos);
     engine_->resume(granules_, contacts_of(granules_, saved.contacts));
 }
 
