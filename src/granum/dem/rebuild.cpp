@@ -64,7 +64,7 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
     double width = settings.skin;
     if (width <= 0) {
         double const least = 0.05 * mean_radius, most = 0.8 * mean_radius;
-        width = 0.2 * mean_radius;
+        width = 0.1 * mean_radius;
         if (skin > 0) {
             constexpr double list_cost = 100;
             double const steps_per_width = static_cast<double>(std::max(1L, steps - built_step)) / skin;

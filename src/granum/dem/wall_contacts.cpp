@@ -71,6 +71,8 @@ WallContacts::WallContacts(std::vector<geometry::Body> const& bodies, Domain con
         made.box = geometry::bounds(body);
         made.origin = body.origin;
         made.material = body.material;
+        if (body.shapes.size() == 1 && body.motions.empty())
+            if (auto const* plane = std::get_if<geometry::Plane>(&body.shapes[0])) made.plane = *plane;
         for (auto const& motion : body.motions)
             if (auto const* servo = std::get_if<geometry::Servo>(&motion); servo != nullptr && !made.servo)
                 made.servo = *servo;
@@ -274,6 +276,12 @@ void WallContacts::measure(kernel::Rules const& rules, Frame const& frame)
         std::span const facets(facets_.data() + near.facet, end_of_facets - near.facet);
         Vec3 const x = frame.position(near.row);
         double const radius = frame.radius(near.row);
+        if (body.plane) {  // the commonest wall, without the search among shapes
+            double const distance = dot(x - body.plane->point, body.plane->normal);
+            overlap_[near.place] = distance < radius ? radius - distance : 0;
+            put(normal_, near.place, body.plane->normal);
+            continue;
+        }
         std::array<Nearest, most_touches> found;
         std::size_t const count = body.search.touches(body.pose.to_body(x), radius, facets, scratch_, found);
         if (body.pose.turned)

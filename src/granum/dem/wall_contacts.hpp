@@ -95,6 +95,7 @@ class WallContacts
         geometry::BodySearch search;
         std::vector<geometry::Motion> motions;
         std::size_t in_place = 0;
+        std::optional<geometry::Plane> plane{};  // where that and nothing else is the body, at rest
         std::optional<geometry::Servo> servo{};
         geometry::ServoState state{};
         geometry::Bounds box{};  // as drawn; infinite where the body is

@@ -30,6 +30,9 @@ struct Mask
     HWY_INLINE friend Mask operator!(Mask a) { return {hn::Not(a.m)}; }
     HWY_INLINE unsigned bits() const
     {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+        return static_cast<unsigned>(m.raw);
+#endif
         alignas(8) std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(Tag(), m, bytes);
         return bytes[0];

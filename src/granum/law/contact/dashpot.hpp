@@ -17,7 +17,7 @@ template <class Real>
 Real lagged(Real coefficient, Real later)
 {
     Real const q = Real(0.5) * coefficient * later;
-    return coefficient * (sqrt(mul_add(q, q, Real(1))) - q);
+    return coefficient * reciprocal(mul_add(q, mul_add(Real(0.5), q, Real(1)), Real(1)));
 }
 
 //! True in the first step of a contact: the surfaces touched less than a step ago.
