@@ -14,13 +14,6 @@ double nearest_image(double x, double centre, double length)
     return x - length * std::round((x - centre) / length);
 }
 
-// Of a difference between two places that lie within one length of each other.
-double shortest(double difference, double length)
-{
-    return difference > 0.5 * length    ? difference - length
-           : difference < -0.5 * length ? difference + length
-                                        : difference;
-}
 }
 
 std::array<int, 3> NeighbourSearch::Cells::at(Place const& place) const
@@ -86,7 +79,8 @@ void NeighbourSearch::fill(Cells& cells, Domain const& domain, std::vector<std::
     for (std::size_t k = 0; k < rows.size(); ++k) {
         auto const to = cells.begin + next[cell_of_[k]]++;
         rows_[to] = rows[k];
-        places_[to] = unsorted_[rows[k]];
+        auto const& from = unsorted_[rows[k]];
+        places_[0][to] = from.x, places_[1][to] = from.y, places_[2][to] = from.z, places_[3][to] = from.radius;
     }
 }
 
@@ -94,7 +88,7 @@ void NeighbourSearch::place(Frame const& frame, Domain const& domain, Vec3 const
 {
     std::size_t const rows = frame.rows();
     unsorted_.resize(rows);
-    places_.resize(rows);
+    for (auto& numbers : places_) numbers.resize(rows + kernel::block);
     rows_.resize(rows);
     Vec3 const whole = domain.size();
     for (std::size_t row = 0; row < rows; ++row) {
@@ -196,70 +190,71 @@ void NeighbourSearch::visit(Cells const& cells, std::array<int, 3> const& at, bo
 }
 
 void NeighbourSearch::find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close,
-                           Candidates& out)
+                           Candidates& out, kernel::Kernel const& kernel)
 {
     place(frame, domain, centre);
     classify(domain, skin);
+    std::size_t const rows = frame.rows(), owned = frame.owned;
     out.near.clear();
     out.far.clear();
-    out.near_begin.assign(frame.rows(), 0);
-    out.near_end.assign(frame.rows(), 0);
-    std::size_t const owned = frame.owned;
-    Vec3 const whole = domain.size();
-    bool const periodic = domain.any_periodic();
+    out.near_begin.assign(rows, 0);
+    out.near_end.assign(rows, 0);
+    seen_near_.resize(rows + kernel::block);
+    seen_far_.resize(rows + kernel::block);
     auto const* const id = frame.id.data();
+    kernel::Look look{.x = places_[0].data(),
+                      .y = places_[1].data(),
+                      .z = places_[2].data(),
+                      .radius = places_[3].data(),
+                      .skin = skin,
+                      .close = close,
+                      .near = seen_near_.data(),
+                      .far = seen_far_.data()};
+    for (std::size_t d = 0; d < 3; ++d) {
+        look.length[d] = domain.periodic[d] ? domain.size()[d] : 0;
+        look.half[d] = domain.periodic[d] ? 0.5 * domain.size()[d] : std::numeric_limits<double>::infinity();
+    }
     for (std::size_t level = 0; level < classes_.size(); ++level) {
         auto const& own = classes_[level];
-        // With fewer than three cells around a periodic direction a cell meets another from both sides.
+        // With fewer than three cells around a periodic direction a cell meets another from both sides: then all are
+        // looked at and the second sight is dropped.
         bool half = true;
         for (std::size_t d = 0; d < 3; ++d) half = half && !(own.wraps[d] && own.number[d] < 3);
-        std::size_t const end = own.begin + (own.start.empty() ? 0 : own.start.back());
-        std::array<int, 3> at{};
-        std::vector<Span> spans;
-        std::size_t cell_seen = std::numeric_limits<std::size_t>::max();
+        auto const begin = static_cast<std::uint32_t>(own.begin);
+        std::size_t const end = own.begin + own.start.back();
+        std::size_t cell = 0, cell_end = own.begin;  // the places of a cell follow each other
         for (std::size_t p = own.begin; p < end; ++p) {
             auto const row = rows_[p];
-            Place const here = places_[p];
-            auto const mine = id[row];
-            bool const is_owned = row < owned;
+            Place const here{places_[0][p], places_[1][p], places_[2][p], places_[3][p]};
+            if (p >= cell_end || level > 0) {
+                auto const at = own.at(here);
+                cell = own.index(at[0], at[1], at[2]);
+                cell_end = own.begin + own.start[cell + 1];
+                spans_.assign(1, {0, 0});  // the rest of the own cell
+                auto const from = [this](Cells const& cells) {
+                    return [this, first = static_cast<std::uint32_t>(cells.begin)](Span span) {
+                        if (span.begin < span.end) spans_.push_back({first + span.begin, first + span.end});
+                    };
+                };
+                visit(own, at, half, from(own));
+                for (std::size_t coarse = 0; coarse < level; ++coarse)
+                    if (classes_[coarse].start.back() > 0)
+                        visit(classes_[coarse], classes_[coarse].at(here), false, from(classes_[coarse]));
+            }
+            if (half) spans_[0] = {static_cast<std::uint32_t>(p + 1), static_cast<std::uint32_t>(cell_end)};
+            look.at[0] = here.x, look.at[1] = here.y, look.at[2] = here.z, look.own_radius = here.radius;
+            kernel.look(look, spans_.data(), spans_.size());
             out.near_begin[row] = static_cast<std::uint32_t>(out.near.size());
-            auto const consider = [&](std::size_t q) {
-                Place const& there = places_[q];
-                double dx = here.x - there.x, dy = here.y - there.y, dz = here.z - there.z;
-                if (periodic) {
-                    if (domain.periodic[0]) dx = shortest(dx, whole.x);
-                    if (domain.periodic[1]) dy = shortest(dy, whole.y);
-                    if (domain.periodic[2]) dz = shortest(dz, whole.z);
+            auto const take = [&](std::uint32_t const* places, std::size_t count, std::vector<PairRows>& list) {
+                for (std::size_t k = 0; k < count; ++k) {
+                    if (!half && places[k] >= begin && places[k] <= p) continue;
+                    auto const other = rows_[places[k]];
+                    if (row >= owned && other >= owned) continue;
+                    list.push_back(id[row] < id[other] ? PairRows{row, other} : PairRows{other, row});
                 }
-                double const limit = here.radius + there.radius + skin, distance2 = dx * dx + dy * dy + dz * dz;
-                if (distance2 >= limit * limit) return;
-                auto const other = rows_[q];
-                if (!is_owned && other >= owned) return;
-                double const nearly = here.radius + there.radius + close;
-                auto& list = distance2 < nearly * nearly ? out.near : out.far;
-                list.push_back(mine < id[other] ? PairRows{row, other} : PairRows{other, row});
             };
-            at = own.at(here);
-            auto const cell = own.index(at[0], at[1], at[2]);
-            if (cell != cell_seen) {
-                cell_seen = cell;
-                spans.clear();
-                visit(own, at, half, [&](Span span) {
-                    if (span.begin < span.end) spans.push_back(span);
-                });
-            }
-            if (half)
-                for (std::size_t q = p + 1, last = own.begin + own.start[cell + 1]; q < last; ++q) consider(q);
-            for (auto const& span : spans)
-                for (std::size_t q = own.begin + span.begin; q < own.begin + span.end; ++q)
-                    if (half || q > p) consider(q);
-            for (std::size_t coarse = 0; coarse < level; ++coarse) {
-                auto const& others = classes_[coarse];
-                if (others.start.back() == 0) continue;
-                visit(others, others.at(here), false, [&](Span span) {
-                    for (std::size_t q = others.begin + span.begin; q < others.begin + span.end; ++q) consider(q);
-                });
-            }
+            take(look.near, look.near_count, out.near);
+            take(look.far, look.far_count, out.far);
             out.near_end[row] = static_cast<std::uint32_t>(out.near.size());
         }
     }

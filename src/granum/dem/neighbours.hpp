@@ -33,7 +33,8 @@ class NeighbourSearch
     //! All pairs of rows with at least one owned whose surfaces are closer than `skin` (m); closer than `close` (m)
     //! they are near. Two images of one granule are no pair. `centre` is a point of the region that this rank owns: in
     //! periodic directions a row counts where its image is nearest to it.
-    void find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close, Candidates& out);
+    void find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close, Candidates& out,
+              kernel::Kernel const& kernel);
 
     //! Rows cell by cell, cells as wide as `width` (m): neighbours in space become neighbours in memory.
     std::vector<std::uint32_t> sorted_rows(Frame const& frame, Domain const& domain, Vec3 const& centre, double width);
@@ -55,10 +56,7 @@ class NeighbourSearch
         std::array<int, 3> at(Place const& place) const;
         std::size_t index(int i, int j, int k) const;
     };
-    struct Span
-    {
-        std::uint32_t begin, end;
-    };
+    using Span = kernel::Span;
 
     void place(Frame const& frame, Domain const& domain, Vec3 const& centre);
     void classify(Domain const& domain, double skin);
@@ -67,7 +65,10 @@ class NeighbourSearch
     void visit(Cells const& cells, std::array<int, 3> const& at, bool half, Consider&& consider) const;
 
     std::vector<Cells> classes_;
-    std::vector<Place> unsorted_, places_;
+    std::vector<Place> unsorted_;
+    std::array<std::vector<double>, 4> places_;  // x, y, z and radius, sorted by class and cell
+    std::vector<Span> spans_;
+    std::vector<std::uint32_t> seen_near_, seen_far_;
     std::vector<std::uint32_t> rows_, cell_of_;
     std::vector<std::vector<std::uint32_t>> members_;
 };

@@ -66,7 +66,7 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
         double const least = 0.05 * mean_radius, most = 0.8 * mean_radius;
         width = 0.1 * mean_radius;
         if (skin > 0) {
-            constexpr double list_cost = 100;
+            constexpr double list_cost = 60;
             double const steps_per_width = static_cast<double>(std::max(1L, steps - built_step)) / skin;
             // Pairs per granule and unit of width at a solids fraction of 0.5: 12 phi / R.
             double const pairs_per_width = 6 / mean_radius;
@@ -182,7 +182,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     double const reach = 2 * largest + skin;
     if (many) halo.fill(frame, reach);
 
-    search.find(frame, domain, centre, skin, 0.15 * skin, candidates);
+    search.find(frame, domain, centre, skin, 0.15 * skin, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);
     auto const row_now = [&](std::uint32_t row) {

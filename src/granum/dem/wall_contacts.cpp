@@ -150,6 +150,8 @@ void WallContacts::make(Frame const& frame, double skin, double largest,
     }
     for (std::uint32_t row = 0; row < frame.owned; ++row)
         for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+            auto const& plane = bodies_[b].plane;
+            if (plane && dot(frame.position(row) - plane->point, plane->normal) >= frame.radius(row) + skin) continue;
             std::size_t const first = facets_.size();
             bodies_[b].search.near(bodies_[b].pose.to_body(frame.position(row)), frame.radius(row) + skin, facets_);
             auto const places = static_cast<std::uint32_t>(std::min(facets_.size() - first, most_touches));

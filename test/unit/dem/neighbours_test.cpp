@@ -45,26 +45,27 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> plain_double_loop(dem::Frame c
 TEST(NeighbourSearch, finds_exactly_the_pairs_of_the_plain_double_loop_from_low_to_high_id)
 {
     double const skin = 3e-4;
-    for (double const smallest : {1.0, 0.5, 0.1, 0.02})
-        for (int periodic = 0; periodic < 8; ++periodic)
-            for (Vec3 const box : {Vec3{0.02, 0.01, 0.04}, Vec3{0.006, 0.05, 0.0047}, Vec3{0.1, 0.1, 0.3}}) {
-                auto const frame = cloud(box, smallest, static_cast<std::uint32_t>(periodic));
-                dem::Domain const domain{
-                    {0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
-                dem::NeighbourSearch search;
-                dem::Candidates found;
-                search.find(frame, domain, 0.5 * box, skin, 0.2 * skin, found);
-                auto const expected = plain_double_loop(frame, domain, skin);
-                std::set<std::pair<std::uint32_t, std::uint32_t>> got, near;
-                for (auto const& [low, high] : found.near) got.insert({low, high}), near.insert({low, high});
-                for (auto const& [low, high] : found.far) got.insert({low, high});
-                EXPECT_EQ(got, expected) << smallest << " " << periodic << " " << box.x;
-                EXPECT_EQ(got.size(), found.near.size() + found.far.size());  // none twice
-                EXPECT_EQ(near, plain_double_loop(frame, domain, 0.2 * skin));
-                for (std::uint32_t row = 0; row < frame.rows(); ++row)
-                    for (auto k = found.near_begin[row]; k < found.near_end[row]; ++k)
-                        EXPECT_TRUE(found.near[k].low == row || found.near[k].high == row);
-            }
+    for (auto const* kernel : dem::kernel::kernels())
+        for (double const smallest : {1.0, 0.5, 0.1, 0.02})
+            for (int periodic = 0; periodic < 8; ++periodic)
+                for (Vec3 const box : {Vec3{0.02, 0.01, 0.04}, Vec3{0.006, 0.05, 0.0047}, Vec3{0.1, 0.1, 0.3}}) {
+                    auto const frame = cloud(box, smallest, static_cast<std::uint32_t>(periodic));
+                    dem::Domain const domain{
+                        {0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
+                    dem::NeighbourSearch search;
+                    dem::Candidates found;
+                    search.find(frame, domain, 0.5 * box, skin, 0.2 * skin, found, *kernel);
+                    auto const expected = plain_double_loop(frame, domain, skin);
+                    std::set<std::pair<std::uint32_t, std::uint32_t>> got, near;
+                    for (auto const& [low, high] : found.near) got.insert({low, high}), near.insert({low, high});
+                    for (auto const& [low, high] : found.far) got.insert({low, high});
+                    EXPECT_EQ(got, expected) << smallest << " " << periodic << " " << box.x;
+                    EXPECT_EQ(got.size(), found.near.size() + found.far.size());  // none twice
+                    EXPECT_EQ(near, plain_double_loop(frame, domain, 0.2 * skin));
+                    for (std::uint32_t row = 0; row < frame.rows(); ++row)
+                        for (auto k = found.near_begin[row]; k < found.near_end[row]; ++k)
+                            EXPECT_TRUE(found.near[k].low == row || found.near[k].high == row);
+                }
 }
 
 TEST(NeighbourSearch, sorts_every_row_once_so_that_neighbours_follow_each_other)

@@ -373,6 +373,38 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
     tally.tell(seen);
 }
 
+void look(Look& in, Span const* spans, std::size_t count)
+{
+    Lanes const x = in.at[0], y = in.at[1], z = in.at[2], own = in.own_radius, skin = in.skin, close = in.close;
+    bool const periodic = in.length[0] + in.length[1] + in.length[2] > 0;
+    auto const shortest = [&in](Lanes difference, std::size_t d) {
+        Lanes const length = in.length[d], half = in.half[d];
+        return difference - select(difference > half, length, select(difference < -half, -length, Lanes(0.0)));
+    };
+    std::size_t near = 0, far = 0;
+    for (std::size_t s = 0; s < count; ++s)
+        for (std::size_t k = spans[s].begin; k < spans[s].end; k += width) {
+            Lanes dx = x - load_anywhere(in.x + k), dy = y - load_anywhere(in.y + k), dz = z - load_anywhere(in.z + k);
+            if (periodic) dx = shortest(dx, 0), dy = shortest(dy, 1), dz = shortest(dz, 2);
+            Lanes const distance2 = dx * dx + (dy * dy + dz * dz), reach = own + load_anywhere(in.radius + k);
+            Lanes const limit = reach + skin, nearly = reach + close;
+            unsigned found = (distance2 < limit * limit).bits();
+            if (spans[s].end - k < width) found &= (1u << (spans[s].end - k)) - 1;
+            if (found == 0) continue;
+            unsigned const nearest = (distance2 < nearly * nearly).bits();
+            for (; found != 0; found &= found - 1) {
+                auto const lane = static_cast<unsigned>(__builtin_ctz(found));
+                auto const place = static_cast<std::uint32_t>(k + lane);
+                bool const is_near = (nearest >> lane & 1) != 0;
+                in.near[near] = in.far[far] = place;
+                near += is_near;
+                far += !is_near;
+            }
+        }
+    in.near_count = near;
+    in.far_count = far;
+}
+
 template <int Kicks, bool Drifts>
 HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
 {

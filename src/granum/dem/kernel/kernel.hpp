@@ -118,12 +118,31 @@ struct MotionSeen
     bool finite = true;
 };
 
+//! Places [begin, end) of a search.
+struct Span
+{
+    std::uint32_t begin, end;
+};
+
+//! Looks from one place at others: which are closer, surface to surface, than `skin`, and of these which than `close`.
+//! The numbers of places stand side by side and are padded by a block.
+struct Look
+{
+    double const *x, *y, *z, *radius;
+    double at[3], own_radius, skin, close;  //!< m
+    double length[3], half[3];  //!< of the domain, m: a difference beyond half a length is shortened by one; where it
+                                //!< is not periodic, zero and infinite
+    std::uint32_t *near, *far;  //!< room for all places of the spans
+    std::size_t near_count, far_count;
+};
+
 struct Kernel
 {
     std::string_view name;
     void (*pairs)(PairPass const&, Seen&);
     void (*walls)(WallPass const&, Seen&);
     void (*move)(Motion const&, MotionSeen&);
+    void (*look)(Look&, Span const*, std::size_t spans);
 };
 
 //! Those that this processor can run, the fastest first; the last is the plain one.

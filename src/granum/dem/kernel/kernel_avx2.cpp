@@ -5,7 +5,8 @@ namespace granum::dem::kernel
 {
 Kernel const& avx2()
 {
-    static constexpr Kernel kernel{"avx2", avx2_kernel::pairs, avx2_kernel::walls, avx2_kernel::move};
+    static constexpr Kernel kernel{"avx2", avx2_kernel::pairs, avx2_kernel::walls, avx2_kernel::move,
+                                   avx2_kernel::look};
     return kernel;
 }
 }

@@ -5,7 +5,8 @@ namespace granum::dem::kernel
 {
 Kernel const& avx512()
 {
-    static constexpr Kernel kernel{"avx512", avx512_kernel::pairs, avx512_kernel::walls, avx512_kernel::move};
+    static constexpr Kernel kernel{"avx512", avx512_kernel::pairs, avx512_kernel::walls, avx512_kernel::move,
+                                   avx512_kernel::look};
     return kernel;
 }
 }

@@ -5,7 +5,8 @@ namespace granum::dem::kernel
 {
 Kernel const& sse4()
 {
-    static constexpr Kernel kernel{"sse4", sse4_kernel::pairs, sse4_kernel::walls, sse4_kernel::move};
+    static constexpr Kernel kernel{"sse4", sse4_kernel::pairs, sse4_kernel::walls, sse4_kernel::move,
+                                   sse4_kernel::look};
     return kernel;
 }
 }

@@ -37,7 +37,10 @@ struct Mask
         hn::StoreMaskBits(Tag(), m, bytes);
         return bytes[0];
     }
-    HWY_INLINE bool none() const { return hn::AllFalse(Tag(), m); }
+    HWY_INLINE bool none() const
+    {
+        return hn::AllFalse(Tag(), m);
+    }
 };
 
 struct Lanes
@@ -89,6 +92,10 @@ HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b)
 HWY_INLINE Lanes load(double const* from)
 {
     return hn::Load(Tag(), from);
+}
+HWY_INLINE Lanes load_anywhere(double const* from)
+{
+    return hn::LoadU(Tag(), from);
 }
 HWY_INLINE void store(Lanes a, double* to)
 {

@@ -218,11 +218,28 @@ void move(Motion const& in, MotionSeen& seen)
         seen.fastest2 = std::max(seen.fastest2, speed2);
     }
 }
+
+void look(Look& in, Span const* spans, std::size_t count)
+{
+    in.near_count = in.far_count = 0;
+    for (std::size_t s = 0; s < count; ++s)
+        for (std::uint32_t k = spans[s].begin; k < spans[s].end; ++k) {
+            double apart[3] = {in.at[0] - in.x[k], in.at[1] - in.y[k], in.at[2] - in.z[k]};
+            for (std::size_t d = 0; d < 3; ++d)
+                apart[d] -= apart[d] > in.half[d] ? in.length[d] : apart[d] < -in.half[d] ? -in.length[d] : 0;
+            double const distance2 = apart[0] * apart[0] + (apart[1] * apart[1] + apart[2] * apart[2]);
+            double const reach = in.own_radius + in.radius[k], limit = reach + in.skin, nearly = reach + in.close;
+            if (distance2 < nearly * nearly)
+                in.near[in.near_count++] = k;
+            else if (distance2 < limit * limit)
+                in.far[in.far_count++] = k;
+        }
+}
 }
 
 Kernel const& scalar()
 {
-    static constexpr Kernel kernel{"scalar", pairs, walls, move};
+    static constexpr Kernel kernel{"scalar", pairs, walls, move, look};
     return kernel;
 }
 }
