@@ -163,7 +163,7 @@ TEST(SpinningSphere, recoils_as_published_where_it_slides)
         below({"D08", "Kratos 3 %"}, law + ", sliding: tangent of the recoil angle, mean difference over mean", 0.03,
               apart / all);
         differs("D08", law + ", sticking: share of the slip kept and tangent of the recoil angle, mean difference", 0.1,
-                sticking / count, "other tangential dashpots");
+                sticking / count, "tangential law not stated");
     }
 }
 }
