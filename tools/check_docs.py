@@ -7,6 +7,29 @@ import sys
 
 SECTIONS = "apparatus|gas|granules|contact|spray|drying|product|start|time|output"
 
+# Functions that read keys of sections which they are told: where their `key + "name"` belongs.
+PREFIXES = {
+    "case_contact.cpp": {
+        "read_pair": ["contact.", "contact.wall_", "contact.pair."],
+        "read_pairs": ["contact.pair."],
+        "read_contact": ["material."],
+    },
+    "case_granules.cpp": {"read_amount": ["granules.", "granules.batch."], "read_batches": ["granules.batch."]},
+    "case_feed.cpp": {"read_region": ["granules.region.", "feed."], "read_feeds": ["feed."]},
+    "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
+    "case_walls.cpp": {"WallReader": ["wall."]},
+}
+CALLS = r'(?<!derived\()(?<!section = )\b(?:(?:key|prefix) \+ |(?:length|point|direction|moves)\()"([a-z_]+)"'
+
+
+def keys_with_prefix(name, text):
+    """Keys that the functions of PREFIXES ask for: a function goes from the line of its name to a closing brace at the margin."""
+    for function, prefixes in PREFIXES.get(name, {}).items():
+        for body in re.findall(rf"^\S.*\b{function}\b[^;]*?\n\{{\n(.*?)^\}}", text, re.MULTILINE | re.DOTALL):
+            named = [key for names in re.findall(r"\bonly\(\{([^}]*)\}\)", body) for key in re.findall(r'"([a-z_]+)"', names)]
+            for key in re.findall(CALLS, body) + named:
+                yield from (prefix + key for prefix in prefixes)
+
 
 def broken_links(root):
     for page in sorted([*root.glob("*.md"), *root.glob("doc/**/*.md"), *root.glob("examples/**/*.md")]):
@@ -21,7 +44,8 @@ def keys_read(root):
     keys = set()
     for file in root.glob("src/granum/sim/case_*.cpp"):
         text = file.read_text()
-        keys |= set(re.findall(rf'"((?:{SECTIONS})\.[a-z_.]+)"', text))
+        keys |= {key for key in re.findall(rf'"((?:{SECTIONS})\.[a-z_.]+)"', text) if key[-1] not in "._"}
+        keys |= set(keys_with_prefix(file.name, text))
         if file.name == "case_spray.cpp":
             keys |= {f"spray.{name}" for name in re.findall(r'\bproperty\("([a-z_]+)"', text)}
         table = re.findall(r'fmt::format\("(granule|nozzle)\[\{\}\]\."', text)
@@ -34,9 +58,11 @@ def keys_documented(root):
     """Keys in the first column of the tables of doc/reference/case.md, under their section's heading."""
     section, keys = None, set()
     for line in (root / "doc/reference/case.md").read_text().splitlines():
-        heading = re.match(r"## `\[+([a-z]+)\]+`", line)
-        if line.startswith("## "):
+        heading = re.match(r"##+ `\[*([a-z.]+?)(?:\.NAME)?\]*`", line)
+        if line.startswith("##"):
             section = heading[1] if heading else None
+            if section and "." in section:
+                keys.add(section)
         row = re.match(r"\| (`[^|]+) \|", line)
         if section and row:
             keys |= {f"{section}.{key}" for key in re.findall(r"`([a-z_.]+)`", row[1])}

@@ -77,7 +77,7 @@ std::vector<Wrong> wrong_cases()
 TEST_F(Program, refuses_each_wrong_case_in_one_screen_and_leaves_nothing)
 {
     auto const cases = wrong_cases();
-    EXPECT_EQ(cases.size(), 12u);
+    EXPECT_EQ(cases.size(), 19u);
     for (auto const& wrong : cases)
         for (auto const* verb : {"check ", "run "}) {
             auto const [status, text] = call(std::string(verb) + "'" + wrong.path.string() + "'");
@@ -113,7 +113,7 @@ TEST_F(Program, suggests_the_near_verb)
 
 TEST_F(Program, writes_templates_that_check)
 {
-    for (auto const* name : {"lab-gf3", "pilot-x8", "rectangular-bed"}) {
+    for (auto const* name : {"lab-gf3", "pilot-x8", "rectangular-bed", "pile", "hopper", "drum"}) {
         auto const printed = call(std::string("new ") + name);
         EXPECT_EQ(printed.status, 0);
         EXPECT_LE(std::count(printed.text.begin(), printed.text.end(), '\n'), 60) << name;

@@ -1,121 +1,19 @@
 #include "granum/io/case_file.hpp"
 
 #include "granum/base/type_list.hpp"
-
-#include <toml++/toml.h>
+#include "granum/io/case_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 namespace granum::io
 {
 namespace
 {
 namespace fs = std::filesystem;
-
-//! A value as it is written in a case, shortened to fit a message.
-std::string as_written(toml::node const& node)
-{
-    std::string out;
-    if (auto const* text = node.as_string()) {
-        out = '"' + text->get() + '"';
-    } else if (auto const* number = node.as_integer()) {
-        out = fmt::format("{}", number->get());
-    } else if (auto const* real = node.as_floating_point()) {
-        out = fmt::format("{}", real->get());
-    } else if (auto const* truth = node.as_boolean()) {
-        out = truth->get() ? "true" : "false";
-    } else if (auto const* array = node.as_array()) {
-        for (auto const& entry : *array) out += (out.empty() ? "[" : ", ") + as_written(entry);
-        out += out.empty() ? "[]" : "]";
-    } else {
-        out = "{...}";
-    }
-    return out.size() > 60 ? out.substr(0, 57) + "..." : out;
-}
-
-//! "nozzle[1].position" -> "nozzle[].position": the key that the documentation knows.
-std::string general(std::string const& key)
-{
-    std::string out;
-    bool inside = false;
-    for (char const c : key) {
-        if (c == ']') inside = false;
-        if (!inside) out += c;
-        if (c == '[') inside = true;
-    }
-    return out;
-}
-
-std::string parent(std::string const& key)
-{
-    auto const dot = key.rfind('.');
-    return dot == std::string::npos ? "" : key.substr(0, dot);
-}
-
-std::string joined(std::vector<std::string> const& names)
-{
-    std::string out;
-    for (auto const& name : names) out += (out.empty() ? "" : ", ") + name;
-    return out;
-}
-
-std::string read_text(std::string const& path)
-{
-    std::error_code none;
-    if (!fs::exists(path, none)) {
-        auto const folder = fs::path(path).parent_path().empty() ? fs::path(".") : fs::path(path).parent_path();
-        if (!fs::is_directory(folder, none))
-            throw base::CaseError({{path, 0, "", fmt::format("there is no folder {}", folder.string()), {}}});
-        std::vector<std::string> files;
-        for (auto const& entry : fs::directory_iterator(folder, none))
-            if (entry.path().extension() == ".toml") files.push_back(entry.path().filename().string());
-        std::sort(files.begin(), files.end());
-        auto const near = base::nearest_name(fs::path(path).filename().string(), files);
-        std::vector<std::string> hints;
-        if (files.size() > 8) files.resize(8);
-        if (!files.empty()) hints.push_back("in that folder: " + joined(files));
-        if (!near.empty()) hints.push_back(fmt::format("did you mean \"{}\"?", near));
-        throw base::CaseError({{path, 0, "", "there is no such file", hints}});
-    }
-    std::ifstream in(path, std::ios::binary);
-    std::stringstream text;
-    text << in.rdbuf();
-    if (!in || fs::is_directory(path, none)) throw base::CaseError({{path, 0, "", "cannot be read as a file", {}}});
-    return text.str();
-}
-
-toml::table parse(std::string const& text, std::string const& path)
-{
-    try {
-        return toml::parse(text, path);
-    } catch (toml::parse_error const& fault) {
-        int const line = static_cast<int>(fault.source().begin.line);
-        std::vector<std::string> hints;
-        std::istringstream lines(text);
-        std::string typed;
-        for (int i = 0; i < line; ++i) std::getline(lines, typed);
-        if (line > 0 && !typed.empty()) hints.push_back("the line: " + typed.substr(0, 80));
-        auto const all = std::count(text.begin(), text.end(), '\n');
-        if (line >= all) hints.push_back("the file ends here: is it complete?");
-        throw base::CaseError(
-            {{path, std::max(line, 1), "", fmt::format("cannot be read: {}", fault.description()), hints}});
-    }
-}
-
-//! "allowed: above 0", "allowed: 0 to 1", in the unit people use.
-std::string allowed(Range const& range, Dimension dimension)
-{
-    auto const low = write_quantity(range.low, dimension), high = write_quantity(range.high, dimension);
-    if (std::isfinite(range.low) && std::isfinite(range.high))
-        return fmt::format("allowed: {}{} to {}", range.low_allowed ? "" : "above ", low, high);
-    if (std::isfinite(range.low)) return fmt::format("allowed: {} {}", range.low_allowed ? "at least" : "above", low);
-    return fmt::format("allowed: up to {}", high);
-}
 
 struct Material
 {
@@ -231,7 +129,7 @@ struct CaseFile::Inside
 CaseFile::CaseFile(std::string path) : inside_(std::make_unique<Inside>())
 {
     inside_->path = std::move(path);
-    inside_->text = read_text(inside_->path);
+    inside_->text = read_case_text(inside_->path);
     inside_->root = parse(inside_->text, inside_->path);
 }
 CaseFile::~CaseFile() = default;
@@ -244,9 +142,18 @@ std::string const& CaseFile::text() const
 {
     return inside_->text;
 }
+std::string CaseFile::beside(std::string const& name) const
+{
+    return (fs::path(inside_->path).parent_path() / name).string();
+}
 bool CaseFile::has(std::string const& key) const
 {
     return inside_->find(key) != nullptr;
+}
+bool CaseFile::says(std::string const& key, std::string const& text) const
+{
+    auto const* node = inside_->find(key);
+    return node && node->is_string() && node->as_string()->get() == text;
 }
 bool CaseFile::wrong(std::string const& key) const
 {
@@ -273,6 +180,33 @@ int CaseFile::count(std::string const& key)
     if (auto const* array = node->as_array()) return static_cast<int>(array->size());
     inside_->fault(key, "expects a list of tables", {fmt::format("write [[{}]] above each", key)});
     return 0;
+}
+
+std::vector<std::string> CaseFile::names(std::string const& key)
+{
+    section(key);
+    std::vector<std::string> out;
+    auto const* node = inside_->find(key);
+    if (!node || !node->is_table()) return out;
+    for (auto const& [name, below] : *node->as_table()) {
+        std::string const text(name.str());
+        auto const full = key + "." + text;
+        bool const plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+            return std::isalnum(c) || c == '-' || c == '_';
+        });
+        if (!plain)
+            inside_->mistakes.push_back({inside_->path,
+                                         static_cast<int>(name.source().begin.line),
+                                         full,
+                                         "is not a name",
+                                         {"letters, digits, - and _ make a name"}});
+        else if (!below.is_table())
+            inside_->fault(full, "expects a section", {fmt::format("write [{}] on a line of its own", full)});
+        else
+            out.push_back(text);
+        inside_->known.insert(full);
+    }
+    return out;
 }
 
 void CaseFile::section(std::string const& name)
@@ -439,6 +373,29 @@ std::vector<long> CaseFile::integers(std::string const& key, std::size_t length,
     return out;
 }
 
+std::vector<double> CaseFile::quantities(std::string const& key, Dimension dimension, std::string const& doc)
+{
+    std::string origin;
+    auto const example =
+        dimension == Dimension::one ? std::string("[1, 2]") : fmt::format("[\"{0}\", \"{0}\"]", example_of(dimension));
+    auto const* node = inside_->look(key, origin);
+    if (!node) {
+        inside_->absent(key, doc, example);
+        return {};
+    }
+    auto const* array = node->as_array();
+    if (!array || array->empty()) {
+        inside_->fault(key, "expects a list of values", {"e.g. " + example});
+        return {};
+    }
+    std::vector<double> out;
+    for (std::size_t i = 0; i < array->size() && !wrong(key); ++i)
+        out.push_back(inside_->number(*array->get(i), key, dimension));
+    if (wrong(key)) return {};
+    inside_->note(key, as_written(*node), origin, doc);
+    return out;
+}
+
 std::vector<std::vector<double>> CaseFile::table(std::string const& key, std::size_t width, Dimension dimension,
                                                  std::string const& doc)
 {
@@ -488,7 +445,7 @@ std::vector<std::string> CaseFile::list(std::string const& key, std::string cons
 void CaseFile::use_material(std::string const& section, std::string const& name, std::string const& file,
                             std::vector<std::string> const& left_out)
 {
-    auto values = parse(read_text(file), file);
+    auto values = parse(read_case_text(file), file);
     for (auto const& key : left_out) values.erase(key);
     inside_->materials[section] = {name, file, std::move(values)};
 }

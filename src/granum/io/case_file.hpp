@@ -46,11 +46,18 @@ class CaseFile
 
     std::string const& path() const;
     std::string const& text() const;  //!< as read
+    //! Where a file named in the case is: relative names are relative to the case.
+    std::string beside(std::string const& name) const;
 
     //! True where the key or section is written in the file. Does not make the key known.
     bool has(std::string const& key) const;
+    //! True where the key is written and holds this text. Does not make the key known.
+    bool says(std::string const& key, std::string const& text) const;
     //! Entries of an array, 0 where it is missing. Their keys are "name[0].entry".
     int count(std::string const& key);
+    //! Names of the tables in a table, in the order of the alphabet: "a" and "b" of [key.a] and [key.b]. Makes the key
+    //! known. A name with anything but letters, digits, - and _ is a mistake and left out.
+    std::vector<std::string> names(std::string const& key);
     //! Makes a key known without reading it.
     void know(std::string const& key);
     //! Makes a section known.
@@ -70,6 +77,8 @@ class CaseFile
     math::Vec3 vector(std::string const& key, Dimension dimension, std::optional<math::Vec3> fallback,
                       std::string const& doc);
     std::vector<long> integers(std::string const& key, std::size_t length, std::string const& doc, long low, long high);
+    //! A list of any length, at least one; all or nothing.
+    std::vector<double> quantities(std::string const& key, Dimension dimension, std::string const& doc);
     std::vector<std::vector<double>> table(std::string const& key, std::size_t width, Dimension dimension,
                                            std::string const& doc);
     std::vector<std::string> list(std::string const& key, std::string const& doc,

@@ -13,6 +13,8 @@ template <class SnapshotType, class Visitor>
 void for_each_numbers(SnapshotType& snapshot, Visitor&& visit)
 {
     auto& granules = snapshot.granules;
+    visit("granules_id", granules.id), visit("granules_material", granules.material);
+    visit("granules_mass", granules.mass);
     visit("granules_radius", granules.radius), visit("granules_temperature", granules.temperature);
     visit("granules_moisture", granules.moisture), visit("granules_diameter", granules.diameter);
     visit("granules_count", granules.count), visit("granules_porosity", granules.porosity);
@@ -27,6 +29,8 @@ template <class SnapshotType, class Visitor>
 void for_each_points(SnapshotType& snapshot, Visitor&& visit)
 {
     visit("granules_position", snapshot.granules.position);
+    visit("granules_velocity", snapshot.granules.velocity);
+    visit("granules_spin", snapshot.granules.spin);
     visit("droplets_position", snapshot.droplets.position);
     visit("nozzles", snapshot.nozzles);
 }

@@ -16,6 +16,11 @@ using math::Vec3;
 struct GranuleView
 {
     std::vector<Vec3> position;       //!< m
+    std::vector<Vec3> velocity;       //!< m/s
+    std::vector<Vec3> spin;           //!< rad/s
+    std::vector<double> id;           //!< identity
+    std::vector<double> material;     //!< number of the material
+    std::vector<double> mass;         //!< of the parcel, kg
     std::vector<double> radius;       //!< of the parcel, m
     std::vector<double> temperature;  //!< K
     std::vector<double> moisture;     //!< kg water per kg dry granule

@@ -3,8 +3,11 @@
 #include "granum/base/error.hpp"
 #include "granum/base/random.hpp"
 #include "granum/math/constants.hpp"
+#include "granum/particle/placer.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace granum::particle
 {
@@ -57,8 +60,53 @@ std::vector<Vec3> random_loose(geometry::Chamber const& chamber, double radius, 
     return fill(chamber, radius, spacing, 0.5 * spacing - radius, count, seed);
 }
 
-std::vector<Vec3> lattice(geometry::Chamber const& chamber, double radius, double spacing, long count)
+std::vector<Vec3> lattice(geometry::Chamber const& chamber, double radius, double spacing, long count, double noise,
+                          std::uint32_t seed)
 {
-    return fill(chamber, radius, spacing, 0, count, 0);
+    return fill(chamber, radius, spacing, noise * (0.5 * spacing - radius), count, seed);
+}
+
+std::vector<Vec3> random_places(Region const& region, std::span<double const> radii, std::uint32_t seed)
+{
+    std::vector<Vec3> out(radii.size());
+    if (radii.empty()) return out;
+    std::vector<std::uint32_t> order(radii.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return radii[a] > radii[b]; });
+    double const largest = radii[order.front()], smallest = radii[order.back()],
+                 height = region.upper.z - region.lower.z;
+    double volume = 0;
+    for (double const radius : radii) volume += 4.0 / 3.0 * math::pi * radius * radius * radius;
+
+    // How much of the box is open is not known beforehand: what fails makes the part that is filled grow.
+    constexpr double solids = 0.30, growth = 1.05;
+    constexpr int trials = 3000;
+    Vec3 const size = region.upper - region.lower;
+    double filled = std::min(height, std::max(4 * largest, volume / solids / (size.x * size.y)));
+    Placer placer(region.lower, region.upper, smallest, largest);
+    for (auto const row : order) {
+        double const radius = radii[row];
+        base::Random random(seed, base::Purpose::packing, row, 1);
+        for (;;) {
+            Vec3 const margin{radius, radius, radius};
+            Vec3 const low = region.lower + margin;
+            Vec3 high = region.upper - margin;
+            high.z = std::max(low.z, region.lower.z + filled - radius);
+            auto const place = placer.place(radius, low, high, random, trials,
+                                            [&](Vec3 const& centre) { return region.allowed(centre, radius); });
+            if (place) {
+                out[row] = *place;
+                break;
+            }
+            base::require(
+                filled < height,
+                "{} spheres of {:.4g} to {:.4g} m do not fit into the region from ({:.4g}, {:.4g}, {:.4g}) to "
+                "({:.4g}, {:.4g}, {:.4g}) m",
+                radii.size(), 2 * smallest, 2 * largest, region.lower.x, region.lower.y, region.lower.z, region.upper.x,
+                region.upper.y, region.upper.z);
+            filled = std::min(height, filled * growth);
+        }
+    }
+    return out;
 }
 }

@@ -76,10 +76,13 @@ std::string write(std::string const& run_folder)
         "content=\"{}\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>{} – Granum "
         "report</title>\n<style>{}</style>\n</head>\n<body>\n",
         policy, escape(run.text("title", run.text("case.title", "Untitled case"))), style);
-    page += verdict_section(run) + pictures_section(run) + porosity_section(run) + product_section(run) +
-            checks_section(run);
-    page += curves_section(run) + events_section(run) + spray_section(run) + performance_section(run) +
-            warnings_section(run) + case_section(run);
+    page += verdict_section(run) + pictures_section(run);
+    if (run.granules_alone())
+        page += packing_section(run) + curves_section(run);
+    else
+        page += porosity_section(run) + product_section(run) + checks_section(run) + curves_section(run) +
+                events_section(run) + spray_section(run);
+    page += performance_section(run) + warnings_section(run) + case_section(run);
     page +=
         "<footer>Made by Granum from the files beside this page: summary.json, timeseries.csv, events.h5, and a series "
         "for "

@@ -32,6 +32,9 @@ struct RunFolder
     //! The object or array at a dotted key; null where there is none.
     nlohmann::json const& at(std::string_view key) const;
 
+    //! The run had neither gas nor spray.
+    bool granules_alone() const { return at("packing").is_object() && !value("gas.cells"); }
+
     //! First of `names` that is a column of the time series, or nothing.
     std::vector<double> const* column(std::initializer_list<char const*> names) const;
     //! Events that count: those of the spray; those of the quasi-steady start only while there are no others.

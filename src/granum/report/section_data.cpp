@@ -18,7 +18,7 @@ struct Convert
     double factor = 1, offset = 0;
     double operator()(double value) const { return factor * value + offset; }
 };
-constexpr Convert same{}, to_celsius{1, -math::zero_celsius}, to_thousandth{1000, 0};
+constexpr Convert same{}, to_celsius{1, -math::zero_celsius}, to_thousandth{1000, 0}, to_percent{100, 0};
 
 std::vector<double> converted(std::vector<double> values, Convert const& convert)
 {
@@ -110,6 +110,62 @@ std::vector<CurveSpec> const& curve_specs()
     return all;
 }
 
+//! What there is to see where granules are alone.
+std::vector<CurveSpec> const& packing_specs()
+{
+    static std::vector<CurveSpec> const all{
+        {"energy of motion (J)",
+         {"kinetic_energy", "rotation_energy"},
+         {"translation", "rotation"},
+         same,
+         "",
+         "",
+         "J",
+         "Kinetic energy of all granules; it falls to nothing where they come to rest."},
+        {"energy (J)",
+         {"potential_energy", "dissipated_energy"},
+         {"potential", "dissipated"},
+         same,
+         "",
+         "",
+         "J",
+         "What gravity gives ends as loss in contacts."},
+        {"coordination number",
+         {"coordination_number"},
+         {"mean"},
+         same,
+         "",
+         "",
+         "",
+         "How many other granules a granule touches, on the mean."},
+        {"overlap (% of a radius)",
+         {"overlap_p99", "overlap_mean"},
+         {"99 % are below", "mean"},
+         to_percent,
+         "packing.overlap.criterion",
+         "usual criterion",
+         "%",
+         "How deeply contacts overlap; a larger contact.youngs_modulus makes them stiffer and the step shorter."},
+        {"force on the walls (N)",
+         {"wall_force_z", "wall_force_x"},
+         {"upward", "along x"},
+         same,
+         "",
+         "",
+         "N",
+         "Sum of the forces of the granules on all walls; at rest minus their weight."},
+        {"mass (g)",
+         {"discharged_mass", "fed_mass"},
+         {"discharged", "fed"},
+         to_thousandth,
+         "",
+         "",
+         "g",
+         "What came in and what left since the start."},
+    };
+    return all;
+}
+
 std::string curve(RunFolder const& run, CurveSpec const& spec)
 {
     constexpr std::array colours{"#1b5e8c", "#c0582b"};
@@ -179,7 +235,7 @@ std::string histogram(Weighted const& data, Axis const& axis, std::string const&
 std::string curves_section(RunFolder const& run)
 {
     std::string out = "<div class=\"charts\">";
-    for (auto const& spec : curve_specs()) out += curve(run, spec);
+    for (auto const& spec : run.granules_alone() ? packing_specs() : curve_specs()) out += curve(run, spec);
     return section("curves", "The process over time", out + "</div>");
 }
 

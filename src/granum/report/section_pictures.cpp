@@ -129,6 +129,19 @@ std::string pictures_section(RunFolder const& run)
         out += figure(framed(picture, png, "bar-temperature", plasma, range, "granule temperature (°C)"),
                       "Granule temperature: cold granules show where liquid lands and dries.");
     }
+    if (celsius.empty() && !granules.velocity.empty()) {
+        std::vector<double> speed;
+        for (auto const& v : granules.velocity) speed.push_back(norm(v));
+        ValueRange range = typical_range(speed);
+        range = {0, std::max(range.high, 1e-3)};
+        Picture picture(window, report_height);
+        picture.draw_granules(snapshot, speed, range, viridis);
+        picture.draw_outline(snapshot);
+        auto const png = picture.png();
+        save(run, "speed.png", png);
+        out += figure(framed(picture, png, "bar-granule-speed", viridis, range, "granule speed (m/s)"),
+                      "Granule speed: the few fastest share the last colour.");
+    }
     auto const moisture = scaled(granules.moisture, 1000, 0);
     if (!moisture.empty()) {
         ValueRange range = typical_range(moisture);

@@ -237,6 +237,13 @@ std::string verdict_section(RunFolder const& run)
             "<p class=\"how\"><b>The run did not reach its end{}; everything below is up to that moment.</b></p>\n",
             escape(ended.empty() ? "" : " (" + ended + ")"));
 
+    if (run.granules_alone())
+        return out + fmt::format(
+                         "<p class=\"statement\">Granules alone: a granule touches {} others; 99 % of the overlaps are "
+                         "below {} % of a radius.</p></header>\n",
+                         quantity(run.value("packing.coordination_number"), "", 3),
+                         quantity(times(run.value("packing.overlap.p99"), 100), "", 2));
+
     auto const mean = run.value("product.porosity.mean"), p10 = run.value("product.porosity.p10"),
                p90 = run.value("product.porosity.p90");
     auto const eta = run.value("result.eta_global");

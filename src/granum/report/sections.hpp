@@ -13,6 +13,7 @@ std::string pictures_section(RunFolder const& run);  //!< also writes pictures/*
 std::string curves_section(RunFolder const& run);
 std::string events_section(RunFolder const& run);
 std::string porosity_section(RunFolder const& run);
+std::string packing_section(RunFolder const& run);  //!< of granules alone: contacts, energy, what came and went
 std::string product_section(RunFolder const& run);
 std::string spray_section(RunFolder const& run);
 std::string performance_section(RunFolder const& run);

@@ -3,10 +3,12 @@
 #include "granum/base/error.hpp"
 #include "granum/material/moist_air.hpp"
 #include "granum/math/constants.hpp"
+#include "granum/sim/forecast.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace granum::sim
@@ -25,37 +27,37 @@ typename List::Any named(std::string const& name)
 std::vector<geometry::Body> walls(Case const& data)
 {
     auto const& chamber = data.chamber;
-    double const height = chamber.height();
     std::vector<geometry::Body> out;
-    auto const plane = [&](std::string name, Vec3 point, Vec3 normal) {
-        out.push_back({.name = std::move(name), .shapes = {geometry::Plane{point, normal}}, .material = 1});
-    };
-    if (!data.periodic[2]) {
-        plane("plate", {0, 0, 0}, {0, 0, 1});
-        plane("filter", {0, 0, height}, {0, 0, -1});
-    }
-    if (chamber.shape == geometry::Chamber::Shape::box) {
-        constexpr std::array low{"x-low", "y-low"}, high{"x-high", "y-high"};
-        for (std::size_t d = 0; d < 2; ++d) {
-            if (data.periodic[d]) continue;
+    auto const faces = [&](std::size_t axis) {
+        constexpr std::array<std::array<char const*, 2>, 3> names{
+            {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
+        if (data.periodic[axis]) return;
+        for (std::size_t high : {0u, 1u}) {
+            if (data.open[axis][high]) continue;
             Vec3 normal;
-            normal[d] = 1;
-            plane(low[d], {0, 0, 0}, normal);
-            plane(high[d], chamber.size, -normal);
+            normal[axis] = high ? -1 : 1;
+            out.push_back({.name = names[axis][high],
+                           .shapes = {geometry::Plane{high ? chamber.upper() : chamber.lower(), normal}},
+                           .material = 1});
         }
-        return out;
+    };
+    faces(2);
+    if (chamber.shape == geometry::Chamber::Shape::box) {
+        faces(0), faces(1);
+    } else {
+        geometry::Body wall{.name = "chamber", .shapes = {}, .material = 1};
+        for (std::size_t p = 0; p + 1 < chamber.profile.size(); ++p) {
+            auto const &from = chamber.profile[p], &to = chamber.profile[p + 1];
+            wall.shapes.push_back(geometry::Frustum{.base = {0, 0, from.height},
+                                                    .axis = {0, 0, 1},
+                                                    .length = to.height - from.height,
+                                                    .base_radius = from.radius,
+                                                    .top_radius = to.radius,
+                                                    .side = geometry::Side::inside});
+        }
+        out.push_back(std::move(wall));
     }
-    geometry::Body wall{.name = "chamber", .shapes = {}, .material = 1};
-    for (std::size_t p = 0; p + 1 < chamber.profile.size(); ++p) {
-        auto const &from = chamber.profile[p], &to = chamber.profile[p + 1];
-        wall.shapes.push_back(geometry::Frustum{.base = {0, 0, from.height},
-                                                .axis = {0, 0, 1},
-                                                .length = to.height - from.height,
-                                                .base_radius = from.radius,
-                                                .top_radius = to.radius,
-                                                .side = geometry::Side::inside});
-    }
-    out.push_back(std::move(wall));
+    out.insert(out.end(), data.walls.begin(), data.walls.end());
     return out;
 }
 
@@ -70,19 +72,11 @@ double collision_speed(Case const& data)
                                                                     material::fraction(data.gas.inlet.humidity));
         fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
     }
-    return std::max(fastest, fastest_meeting(data));
-}
-
-double smallest_radius(Case const& data)
-{
-    double radius = data.granules.diameter / 2;
-    for (auto const& one : data.granules.given)
-        if (one.diameter > 0) radius = std::min(radius, one.diameter / 2);
-    return radius * (data.granules.given.empty() ? data.granules.parcel_ratio : 1);
+    return std::max(fastest, fastest_meeting(data) + fastest_wall(data));
 }
 
 //! k_n of `linear`, N/m, for a pair whose effective mass is `share` of a granule's: as given, or so that the contact of
-//! two of the smallest granules lasts contact.contact_time contact with a wall lasts as long.
+//! two of the smallest granules lasts contact.contact_time, and contact with a wall lasts as long.
 double linear_stiffness(Case const& data, ContactPair const& pair, double share)
 {
     auto const& contact = data.contact;
@@ -90,8 +84,10 @@ double linear_stiffness(Case const& data, ContactPair const& pair, double share)
     auto const attraction = contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
     double const zeta = law::contact::damping_ratio(pair.restitution, attraction);
     double const rate = law::contact::contact_phase(zeta, attraction) / *contact.contact_time;
-    double const mass = data.granules.density * 4 / 3 * math::pi * std::pow(smallest_radius(data), 3);
-    return share * mass * rate * rate;
+    double lightest = std::numeric_limits<double>::infinity();
+    for (auto const& kind : granule_kinds(data))
+        lightest = std::min(lightest, kind.density * 4 / 3 * math::pi * kind.radius * kind.radius * kind.radius);
+    return share * lightest * rate * rate;
 }
 }
 
@@ -111,19 +107,34 @@ dem::Settings granule_settings(Case const& data)
         },
         laws.normal);
     laws.lever = contact.lever_radius ? dem::Lever::radius : dem::Lever::contact_point;
-    laws.reference = {smallest_radius(data), data.granules.density, contact.reference_speed};
-    auto const granule = laws.add({contact.granule.youngs_modulus, contact.granule.poisson_ratio});
-    auto const wall = laws.add({contact.wall.youngs_modulus, contact.wall.poisson_ratio, contact.rigid_wall, true});
-    auto const pair = [&](ContactPair const& p, double share) {
-        return dem::PairProperties{.restitution = p.restitution,
-                                   .sliding_friction = p.sliding_friction,
-                                   .rolling_friction = p.rolling_friction,
-                                   .rolling_damping = p.rolling_damping,
-                                   .stiffness = linear_stiffness(data, p, share),
-                                   .tangential_ratio = contact.tangential_ratio};
-    };
-    laws.pair(granule, granule, pair(contact.granule_granule, 0.5));
-    laws.pair(granule, wall, pair(contact.granule_wall, 1));
+    auto const grains = granule_kinds(data);
+    for (std::uint32_t number = 0; number < contact.materials.size(); ++number) {
+        auto const& m = contact.materials[number];
+        bool const granular =
+            std::any_of(grains.begin(), grains.end(), [&](auto const& g) { return g.material == number; });
+        laws.add({.youngs_modulus = m.youngs_modulus,
+                  .poisson_ratio = m.poisson_ratio,
+                  .rigid = m.rigid,
+                  .wall = number > 0 && !granular});
+    }
+    for (std::uint32_t a = 0; a < contact.pairs.size(); ++a)
+        for (std::uint32_t b = 0; b <= a; ++b) {
+            auto const& pair = contact.pairs[a][b];
+            laws.pair(a, b,
+                      {.restitution = pair.restitution,
+                       .sliding_friction = pair.sliding_friction,
+                       .rolling_friction = pair.rolling_friction,
+                       .rolling_damping = pair.rolling_damping,
+                       .stiffness = linear_stiffness(data, pair, laws.is_wall(a) || laws.is_wall(b) ? 1 : 0.5),
+                       .tangential_ratio = contact.tangential_ratio});
+        }
+    laws.reference.speed = contact.reference_speed;
+    auto const smallest = std::min_element(
+        grains.begin(), grains.end(), [](auto const& one, auto const& other) { return one.radius < other.radius; });
+    if (smallest != grains.end()) {
+        laws.reference.radius = smallest->radius;
+        laws.reference.density = smallest->density;
+    }
     settings.walls = walls(data);
     settings.lower = data.chamber.lower();
     settings.upper = data.chamber.upper();
@@ -136,7 +147,13 @@ dem::Settings granule_settings(Case const& data)
 particle::Groups column_groups(Case const& data)
 {
     bool const gas = data.gas.present;
-    return {.parcel = gas || data.granules.parcel_ratio > 1, .gas = gas, .process = gas};
+    auto const& granules = data.granules;
+    bool const parcels =
+        granules.parcel_ratio > 1 ||
+        std::any_of(granules.batches.begin(), granules.batches.end(),
+                    [](auto const& b) { return b.parcel_ratio > 1; }) ||
+        std::any_of(granules.given.begin(), granules.given.end(), [](auto const& one) { return one.count != 1; });
+    return {.parcel = gas || parcels, .gas = gas, .process = gas};
 }
 
 gas::Settings gas_settings(Case const& data)
@@ -252,9 +269,52 @@ drying::Settings drying_settings(Case const& data)
 
 double largest_radius(Case const& data)
 {
-    double largest = data.granules.mass > 0 ? 0.5 * data.granules.diameter * data.granules.parcel_ratio : 0;
-    for (auto const& granule : data.granules.given) largest = std::max(largest, 0.5 * granule.diameter);
+    double largest = 0;
+    for (auto const& batch : data.granules.batches)
+        largest = std::max(largest, 0.5 * batch.sizes.largest() * batch.parcel_ratio);
+    for (auto const& one : data.granules.given) largest = std::max(largest, 0.5 * one.diameter * std::cbrt(one.count));
     return largest;
+}
+
+double density_of(Case const& data, GranuleCase const& one)
+{
+    double const of_material = data.contact.materials[one.material].density;
+    return one.density > 0 ? one.density : of_material > 0 ? of_material : data.granules.density;
+}
+
+std::vector<dem::Grains> granule_kinds(Case const& data)
+{
+    std::vector<dem::Grains> out;
+    for (auto const& batch : data.granules.batches)
+        out.push_back({batch.material, 0.5 * batch.sizes.smallest() * batch.parcel_ratio, batch.density});
+    std::map<std::uint32_t, dem::Grains> given;
+    for (auto const& one : data.granules.given) {
+        double const radius = 0.5 * one.diameter * std::cbrt(one.count);
+        double const density = density_of(data, one);
+        auto& kind = given.try_emplace(one.material, dem::Grains{one.material, radius, density}).first->second;
+        kind.radius = std::min(kind.radius, radius);
+        kind.density = std::min(kind.density, density);
+    }
+    for (auto const& [material, kind] : given) out.push_back(kind);
+    return out;
+}
+
+double fastest_wall(Case const& data)
+{
+    double const reach = math::norm(data.chamber.upper() - data.chamber.lower()) / 2;
+    double fastest = 0;
+    for (auto const& body : data.walls) {
+        double speed = 0;
+        for (auto const& motion : body.motions) {
+            if (auto const* moved = std::get_if<geometry::Translation>(&motion)) speed += math::norm(moved->velocity);
+            if (auto const* turned = std::get_if<geometry::Rotation>(&motion)) speed += std::abs(turned->rate) * reach;
+            if (auto const* shaken = std::get_if<geometry::Vibration>(&motion))
+                speed += 2 * math::pi * shaken->frequency * shaken->amplitude;
+            if (auto const* pressed = std::get_if<geometry::Servo>(&motion)) speed += pressed->fastest;
+        }
+        fastest = std::max(fastest, speed);
+    }
+    return fastest;
 }
 
 double fastest_meeting(Case const& data)
@@ -268,30 +328,11 @@ double fastest_meeting(Case const& data)
     return first + second;
 }
 
-std::vector<dem::Grains> granule_kinds(Case const& data)
-{
-    std::map<double, double> smallest;  // radius by density
-    auto const add = [&](double radius, double density) {
-        auto const [place, fresh] = smallest.try_emplace(density, radius);
-        if (!fresh) place->second = std::min(place->second, radius);
-    };
-    auto const& granules = data.granules;
-    if (granules.mass > 0 || granules.given.empty())
-        add(0.5 * granules.diameter * granules.parcel_ratio, granules.density);
-    for (auto const& granule : granules.given)
-        add(0.5 * (granule.diameter > 0 ? granule.diameter : granules.diameter),
-            granule.density > 0 ? granule.density : granules.density);
-    std::vector<dem::Grains> out;
-    for (auto const& [density, radius] : smallest) out.push_back({0, radius, density});
-    return out;
-}
-
 double granule_step(Case const& data)
 {
     if (data.time.granule_step) return *data.time.granule_step;
     double least = data.time.duration;
-    for (auto const& bound : dem::step_bounds(granule_settings(data).laws, granule_kinds(data), collision_speed(data)))
-        least = std::min(least, bound.seconds);
+    for (auto const& bound : granule_step_bounds(data, collision_speed(data))) least = std::min(least, bound.seconds);
     return least;
 }
 

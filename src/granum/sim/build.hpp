@@ -30,16 +30,25 @@ spray::FlightSettings flight_settings(Case const& data);
 product::Any porosity_model(Case const& data);
 drying::Settings drying_settings(Case const& data);
 
-//! Radius of a parcel, m, and of the largest granule given by hand.
+//! The largest radius of a parcel, m.
 double largest_radius(Case const& data);
 
-//! What bounds the granule step: of each density the smallest parcel or granule given by hand.
+//! The smallest parcels of each batch, or of those given of one material: what bounds the step.
 std::vector<dem::Grains> granule_kinds(Case const& data);
+
+//! Speed of the fastest wall, m/s: of one that turns at half the diagonal of the chamber from its axis.
+double fastest_wall(Case const& data);
+
+//! Its own density, or that of its material, or that of [granules], kg/m3.
+double density_of(Case const& data, GranuleCase const& one);
 
 //! Speed at which the two fastest of the granules given by hand would meet head-on, m/s.
 double fastest_meeting(Case const& data);
 
-//! The step that `granum run` takes if the case names none: the least of the bounds at the expected contact speed.
+//! Appends a row for a granule that has its density.
+void add_granule(particle::Store& granules, GranuleCase const& one);
+
+//! The step that `granum run` takes if the case names none: the least of the bounds; `speed` (m/s) is a typical speed.
 double granule_step(Case const& data);
 
 //! Cells along the three directions: those of the gas, or for a run without gas enough for the ranks along x.

@@ -1,11 +1,14 @@
 // A case, resolved: what `granum run` needs, in SI units, with every default filled in. Built from TOML by case_reader.
 #pragma once
 
+#include "granum/geometry/body.hpp"
 #include "granum/geometry/chamber.hpp"
 #include "granum/math/constants.hpp"
+#include "granum/particle/sizes.hpp"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,11 +18,14 @@ namespace granum::sim
 {
 using math::Vec3;
 
-//! Contact properties of one material pairing; `wall` is a material of its own.
-struct ContactMaterial
+//! A material that touches. Number 0 is "granule" and 1 is "wall", then follow those of [material.NAME].
+struct MaterialCase
 {
+    std::string name;
+    double density = 0;           //!< kg/m3 of granules; 0: not given
     double youngs_modulus = 1e7;  //!< Pa, usually softened
     double poisson_ratio = 0.25;
+    bool rigid = false;  //!< does not yield: only the partner's modulus counts
 };
 struct ContactPair
 {
@@ -33,10 +39,9 @@ struct ContactPair
 //! [contact]
 struct ContactCase
 {
-    ContactMaterial granule, wall;
-    bool rigid_wall = false;  //!< the wall does not yield: only the granule's modulus counts
-    ContactPair granule_granule, granule_wall;
-    std::string normal = "hertz-tsuji";  //!< law names
+    std::vector<MaterialCase> materials{{.name = "granule"}, {.name = "wall"}};
+    std::vector<std::vector<ContactPair>> pairs{{{}}, {{}, {}}};  //!< [a][b], b up to a: how two materials meet
+    std::string normal = "hertz-tsuji";                           //!< law names
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
     std::optional<double> contact_time;  //!< of `linear`, in place of stiffnesses: of two of the smallest granules, s
@@ -46,12 +51,33 @@ struct ContactCase
     bool keep_attraction = false;        //!< keep the tensile end of a damped contact (Tsuji's own damping)
 };
 
-//! One granule given by hand ([[granule]] tables or a CSV file).
+//! One granule with its place: from [[granule]] tables, a CSV file or another run.
 struct GranuleCase
 {
     Vec3 position, velocity, spin;
-    double diameter = 0;  //!< m
-    double density = 0;   //!< kg/m3; 0: that of [granules]
+    double diameter = 0;  //!< of a real granule, m
+    double density = 0;   //!< kg/m3; 0: that of its material
+    double count = 1;     //!< real granules in the parcel
+    std::uint64_t id = 0;
+    std::uint32_t material = 0;
+};
+
+//! A box in which granules appear.
+struct RegionCase
+{
+    Vec3 lower, upper;  //!< m
+};
+
+//! [[granules.batch]]: granules of one material and one size distribution.
+struct BatchCase
+{
+    std::string name;
+    std::uint32_t material = 0;
+    double density = 0;  //!< kg/m3
+    particle::SizeDistribution sizes = particle::SizeDistribution::single(0.6e-3);
+    double mass = 0;          //!< kg
+    double parcel_ratio = 1;  //!< l: a parcel stands for l^3 granules
+    long parcels = 0;
 };
 
 //! [granules]
@@ -63,9 +89,26 @@ struct GranulesCase
     double parcel_ratio = 1;        //!< l: a parcel stands for l^3 granules
     double heat_capacity = 1400;    //!< J/kg/K of the dry core and layer
     std::string start = "settled";  //!< "settled" (random packing that fell under gravity), "loose", "lattice", "given"
+    double spacing = 1.1;           //!< of a lattice, diameters
+    double noise = 0;               //!< of a lattice, share of the free way
+    std::optional<RegionCase> region;
+    std::vector<BatchCase> batches;  //!< empty where granules are given one by one
     std::vector<GranuleCase> given;
-    bool frozen = false;  //!< granules do not move (fixed bed)
-    long parcels = 0;     //!< derived
+    bool frozen = false;           //!< granules do not move (fixed bed)
+    long parcels = 0;              //!< derived
+    std::uint64_t first_free = 0;  //!< derived: identities are below this
+};
+
+//! [[feed]]: the granules of a batch appear in a region while the run goes on.
+struct FeedCase
+{
+    std::size_t batch = 0;
+    RegionCase region;
+    double rate = 0;                                        //!< kg/s; 0: as fast as there is room
+    double start = 0;                                       //!< s
+    double stop = std::numeric_limits<double>::infinity();  //!< s
+    Vec3 velocity;                                          //!< m/s
+    double interval = 0.01;                                 //!< between portions, s
 };
 
 //! A gas flow at its inlet.
@@ -168,11 +211,15 @@ struct Case
     std::string title = "untitled";
     std::string file;  //!< as the user typed it
     geometry::Chamber chamber;
-    std::array<bool, 3> periodic{};  //!< of a box
+    std::array<bool, 3> periodic{};             //!< of a box
+    std::array<std::array<bool, 2>, 3> open{};  //!< [axis][low, high]: faces without a wall
+    bool discharge = false;                     //!< granules that leave through open faces are counted, not an error
+    std::vector<geometry::Body> walls;          //!< [[wall]], besides those of the chamber
     Vec3 gravity{0, 0, -math::standard_gravity};
     std::uint32_t seed = 1;
     ContactCase contact;
     GranulesCase granules;
+    std::vector<FeedCase> feeds;
     GasCase gas;
     SprayCase spray;
     DryingCase drying;

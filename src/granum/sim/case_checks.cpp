@@ -1,9 +1,12 @@
 // The mistakes that no single value shows: what does not fit, float, dry or stay stable.
+#include "granum/particle/overlaps.hpp"
+#include "granum/sim/build.hpp"
 #include "granum/sim/case_sections.hpp"
 #include "granum/sim/forecast.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace granum::sim
 {
@@ -37,13 +40,38 @@ void check_bed(io::CaseFile& file, Case const& data)
     for (std::size_t i = 0; i < data.granules.given.size(); ++i) {
         auto const key = file.count("granule") > 0 && !file.has("granules.file")
                              ? fmt::format("granule[{}].position", i)
-                             : std::string("granules.file");
+                             : std::string(file.has("granules.run") ? "granules.run" : "granules.file");
         if (data.chamber.inside(data.granules.given[i].position)) continue;
         auto const& x = data.granules.given[i].position;
         file.mistake(key, fmt::format("puts granule {} outside the chamber, at ({:.4g}, {:.4g}, {:.4g}) m", i + 1, x.x,
                                       x.y, x.z));
         break;
     }
+}
+
+//! Granules given one by one must not lie deep in each other; shallow overlaps are worth a word.
+void check_overlaps(io::CaseFile& file, Case const& data, std::vector<std::string>& warnings)
+{
+    auto const& given = data.granules.given;
+    if (given.size() < 2) return;
+    constexpr double bearable = 0.5, noticed = 0.01;  // of a radius: where the engine stops; where contacts burst apart
+    std::vector<Vec3> centres;
+    std::vector<double> radii;
+    for (auto const& one : given) {
+        centres.push_back(one.position);
+        radii.push_back(0.5 * one.diameter * std::cbrt(one.count));
+    }
+    auto const found = particle::overlaps(centres, radii);
+    if (found.deepest <= noticed) return;
+    auto const what = fmt::format("{} pairs of granules overlap, the deepest by {:.3g} % of a radius: {} and {}",
+                                  found.pairs, 100 * found.deepest, given[found.first].id, given[found.second].id);
+    auto const key = file.has("granules.file")  ? "granules.file"
+                     : file.has("granules.run") ? "granules.run"
+                                                : "granule";
+    if (found.deepest > bearable)
+        file.mistake(key, "puts granules into each other: " + what, {"allowed: up to 50 % of a radius, better none"});
+    else
+        warnings.push_back(fmt::format("{}: {}; they will fly apart", key, what));
 }
 
 //! Parcels must be small against cells, and cells against the chamber.
@@ -89,19 +117,21 @@ void check_steps(io::CaseFile& file, Case const& data)
     if (time.granule_step && !data.granules.frozen && !file.wrong("contact.youngs_modulus") &&
         !file.wrong("contact.poisson_ratio") && !file.wrong("contact.stiffness") &&
         !file.wrong("contact.contact_time")) {
-        // The recommended bounds keep 0.2 of the Rayleigh time (none for the linear law) and 20 steps in a contact;
-        // integration fails beyond about 1.5 times the first and twice the second.
-        auto bounds = granule_step_bounds(data, expected_contact_speed(data));
-        bool const linear = data.contact.normal == "linear";
-        bounds.resize(linear ? 1 : 2);
-        double const stable = linear ? 2 * bounds[0].seconds : std::min(1.5 * bounds[0].seconds, 2 * bounds[1].seconds);
-        if (*time.granule_step > stable) {
-            std::vector<std::string> hints{
-                fmt::format("allowed: up to {:.3g} s; leave it out to let the program choose", stable)};
-            for (auto const& bound : bounds)
-                hints.push_back(fmt::format("bound: {:.3g} s, {}", bound.seconds, bound.reason));
-            file.mistake("time.granule_step", "is above the stable step", hints);
+        // The recommended bounds keep 0.2 of the Rayleigh time and 20 steps in a contact; integration fails beyond
+        // about 1.5 times the first and twice the second.
+        // The rolling spring is damped: beyond its bound it is only coarse.
+        dem::StepBound wave{std::numeric_limits<double>::infinity(), ""}, contact = wave;
+        for (auto const& bound : granule_step_bounds(data, expected_contact_speed(data))) {
+            if (bound.reason.starts_with("0.2 of the Rayleigh") && bound.seconds < wave.seconds) wave = bound;
+            if (bound.reason.starts_with("1/20") && bound.seconds < contact.seconds) contact = bound;
         }
+        double const stable = std::min(1.5 * wave.seconds, 2 * contact.seconds);
+        std::vector<std::string> hints{
+            fmt::format("allowed: up to {:.3g} s; leave it out to let the program choose", stable)};
+        for (auto const* bound : {&wave, &contact})
+            if (!bound->reason.empty())
+                hints.push_back(fmt::format("bound: {:.3g} s, {}", bound->seconds, bound->reason));
+        if (*time.granule_step > stable) file.mistake("time.granule_step", "is above the stable step", hints);
     }
     if (time.gas_step && time.granule_step && *time.gas_step < *time.granule_step)
         file.mistake("time.gas_step", "is shorter than time.granule_step");
@@ -154,6 +184,7 @@ void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vec
     if (chamber) {
         if (granules_known(file, data)) {
             check_bed(file, data);
+            check_overlaps(file, data, warnings);
             if (!file.wrong("granules.mass")) check_resolution(file, data);
             check_steps(file, data);
         }

@@ -46,8 +46,11 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
         file.section(name);
 
     read_apparatus(file, data, purpose);
-    read_granules(file, data, purpose);
     read_contact(file, data);
+    read_walls(file, data);
+    read_region(file, data);
+    read_granules(file, data, purpose);
+    read_feeds(file, data);
     read_gas(file, data, purpose);
     read_cells(file, data);
     read_spray(file, data, purpose);

@@ -8,8 +8,11 @@
 namespace granum::sim
 {
 void read_apparatus(io::CaseFile& file, Case& data, Purpose purpose);
-void read_granules(io::CaseFile& file, Case& data, Purpose purpose);
-void read_contact(io::CaseFile& file, Case& data);
+void read_contact(io::CaseFile& file, Case& data);                    //!< with the materials
+void read_granules(io::CaseFile& file, Case& data, Purpose purpose);  //!< after the materials
+void read_walls(io::CaseFile& file, Case& data);                      //!< after the materials
+void read_region(io::CaseFile& file, Case& data);                     //!< after the apparatus
+void read_feeds(io::CaseFile& file, Case& data);                      //!< after the granules
 void read_gas(io::CaseFile& file, Case& data, Purpose purpose);
 void read_cells(io::CaseFile& file, Case& data);  //!< after the apparatus and the granules
 void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
@@ -17,6 +20,18 @@ void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [dryin
 
 //! What no single value shows: the mistakes and warnings that follow from values together.
 void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vector<std::string>& warnings);
+
+//! @{ Names of the materials of a case, and the number of one (that of their count if there is none).
+std::vector<std::string> material_names(ContactCase const& contact);
+std::uint32_t material_number(ContactCase const& contact, std::string const& name);
+//! @}
+
+//! The number of the material that `key` names; `fallback` where it names none.
+std::uint32_t read_material(io::CaseFile& file, ContactCase const& contact, std::string const& key,
+                            std::uint32_t fallback, std::string const& doc);
+
+//! The size distribution at `prefix` + "size", or nothing where it is not given or wrong.
+std::optional<particle::SizeDistribution> read_sizes(io::CaseFile& file, std::string const& prefix);
 
 //! Lets the sections take missing values from the material named by `key`; a wrong name is a mistake there. Returns the
 //! name, empty where none is given.

@@ -82,6 +82,10 @@ void Simulation::each_common_number(Visit&& visit)
         visit(ledger->start), visit(ledger->reference);
     visit(ledgers_.momentum);
     visit(last_.pressure_iterations), visit(last_.pressure_converged);
+    visit(traffic_.fed), visit(traffic_.left), visit(traffic_.fed_mass), visit(traffic_.left_mass);
+    visit(traffic_.fed_energy), visit(traffic_.left_energy);
+    visit(next_feed_), visit(feed_rounds_);
+    for (auto& feed : feeds_) visit(feed.placed), visit(feed.mass);
     auto& watch = engine_->watch();
     visit(watch.largest_overlap), visit(watch.warned_overlaps), visit(watch.rebuilds);
 }
@@ -211,6 +215,8 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
 void Simulation::take_granules(Saved const& saved)
 {
     granules_ = saved.granules;
+    case_.granules.given.clear();
+    fill_feeds();
     case_.granules.parcels = static_cast<long>(saved.common.at(0));
 }
 

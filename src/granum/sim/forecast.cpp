@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace granum::sim
 {
@@ -20,10 +21,9 @@ constexpr double packed_voidage = 0.42;  //!< where minimum fluidisation is eval
 
 double parcel_radius(Case const& data)
 {
-    double radius = data.granules.diameter / 2;
-    for (auto const& one : data.granules.given)
-        if (one.diameter > 0) radius = std::min(radius, one.diameter / 2);
-    return radius * (data.granules.given.empty() ? data.granules.parcel_ratio : 1);
+    double radius = std::numeric_limits<double>::infinity();
+    for (auto const& kind : granule_kinds(data)) radius = std::min(radius, kind.radius);
+    return radius;
 }
 
 double gas_density(Case const& data)
@@ -38,7 +38,7 @@ struct Moduli
 {
     double normal, shear;
 };
-Moduli moduli(ContactMaterial const& granule)
+Moduli moduli(MaterialCase const& granule)
 {
     double const nu = granule.poisson_ratio, shear = granule.youngs_modulus / (2 * (1 + nu));
     return {granule.youngs_modulus / (2 * (1 - nu * nu)), shear / (2 * (2 - nu))};
@@ -52,7 +52,8 @@ double largest_overlap(Case const& data, double radius, double speed)
     if (std::holds_alternative<law::contact::Linear>(laws.normal))
         return speed * std::sqrt(mass / 2 / laws.effective(0, 0).stiffness);
     return std::pow(
-        15 * (mass / 2) * speed * speed / (16 * moduli(data.contact.granule).normal * std::sqrt(radius / 2)), 0.4);
+        15 * (mass / 2) * speed * speed / (16 * moduli(data.contact.materials.front()).normal * std::sqrt(radius / 2)),
+        0.4);
 }
 
 //! Contact-like evaluations per second of one core, timed for 20 ms: roots and divisions that wait for each other, as a
@@ -146,7 +147,7 @@ double plate_velocity(Case const& data)
 
 double expected_contact_speed(Case const& data)
 {
-    return std::max({1.0, plate_velocity(data), fastest_meeting(data)});
+    return std::max({1.0, plate_velocity(data), fastest_meeting(data) + fastest_wall(data)});
 }
 
 std::vector<dem::StepBound> granule_step_bounds(Case const& data, double speed)

@@ -32,7 +32,7 @@ struct GranuleRow
 {
     std::uint64_t id;
     Vec3 position, velocity, spin;
-    double radius = 0, diameter = 0, count = 1, material = 0;
+    double radius = 0, diameter = 0, count = 1, material = 0, mass = 0;
     double temperature = 0, moisture = 0, layer_mass = 0;  // where granules have these columns
 };
 
@@ -48,7 +48,8 @@ std::vector<GranuleRow> granule_rows(Simulation& simulation)
                        .radius = g.radius[r],
                        .diameter = g.real_diameter(r),
                        .count = g.real_count(r),
-                       .material = static_cast<double>(g.material[r])};
+                       .material = static_cast<double>(g.material[r]),
+                       .mass = g.mass[r]};
         if (g.groups.process) {
             row.temperature = g.temperature[r];
             row.moisture = g.water[r] / (g.core_mass[r] + g.layer_mass[r] + g.solute[r]);
@@ -140,8 +141,13 @@ io::GranuleView view_of(std::vector<GranuleRow> const& granules, std::vector<pro
                         bool process)
 {
     io::GranuleView view;
-    for (auto const& row : granules) view.position.push_back(row.position);
     for (auto const& row : granules) {
+        view.position.push_back(row.position);
+        view.velocity.push_back(row.velocity);
+        view.spin.push_back(row.spin);
+        view.id.push_back(static_cast<double>(row.id));
+        view.material.push_back(row.material);
+        view.mass.push_back(row.mass);
         view.radius.push_back(row.radius);
         view.diameter.push_back(row.diameter);
         view.count.push_back(row.count);
@@ -160,10 +166,11 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
     : folder_(std::move(folder)),
       simulation_(simulation),
       root_(simulation.comm().root()),
+      walls_(folder_, simulation),
       granules_(folder_ + "/granules.pvd"),
       droplets_(folder_ + "/droplets.pvd"),
       gas_(folder_ + "/gas.pvd"),
-      layers_(simulation.data().spray.present ? static_cast<std::size_t>(simulation.data().granules.parcels) : 0),
+      layers_(simulation.data().spray.present ? static_cast<std::size_t>(simulation.data().granules.first_free) : 0),
       model_(porosity_model(simulation.data()))
 {
     if (!root_) return;
@@ -187,7 +194,21 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
                                                 {"in_flight_solids", "kg"},
                                                 {"coldest", "K"},
                                                 {"hottest", "K"},
-                                                {"kinetic_energy", "J"}};
+                                                {"kinetic_energy", "J"},
+                                                {"coordination_number", "1"},
+                                                {"overlap_mean", "1"},
+                                                {"overlap_p99", "1"},
+                                                {"overlap_largest", "1"},
+                                                {"rotation_energy", "J"},
+                                                {"potential_energy", "J"},
+                                                {"elastic_energy", "J"},
+                                                {"dissipated_energy", "J"},
+                                                {"wall_force_x", "N"},
+                                                {"wall_force_y", "N"},
+                                                {"wall_force_z", "N"},
+                                                {"fed_mass", "kg"},
+                                                {"discharged_mass", "kg"},
+                                                {"discharged_granules", "1"}};
     series_ = std::make_unique<io::SeriesWriter>(folder_ + "/timeseries.csv", columns);
     std::vector<io::EventColumn> event_columns;
     for (auto const& c : drying::event_columns)
@@ -206,7 +227,10 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
 
 void Output::sample()
 {
-    Sample const s{simulation_.time(), simulation_.readings(), simulation_.totals()};
+    Sample const s{simulation_.time(), simulation_.readings(), simulation_.totals(),
+                   bed_statistics(simulation_.granules(), simulation_.engine(), simulation_.comm()),
+                   simulation_.traffic()};
+    walls_.sample();
     if (!root_) return;
     samples_.push_back(s);
     write(s);
@@ -216,6 +240,9 @@ void Output::write(Sample const& s)
 {
     auto const& r = s.readings;
     auto const& t = s.totals;
+    double const gone = s.traffic.left_energy - s.traffic.fed_energy;
+    energy_passed_ = std::max(energy_passed_, s.bed.translation + s.bed.rotation + s.bed.dissipated);
+    energy_residual_ = s.bed.energy() + s.bed.dissipated + gone - samples_.front().bed.energy();
     double const row[] = {s.time,
                           r.bed_temperature,
                           r.outlet_temperature,
@@ -235,7 +262,21 @@ void Output::write(Sample const& s)
                           t.in_flight,
                           r.coldest,
                           r.hottest,
-                          r.kinetic_energy};
+                          r.kinetic_energy,
+                          s.bed.coordination,
+                          s.bed.overlap_mean,
+                          s.bed.overlap_p99,
+                          s.bed.overlap_largest,
+                          s.bed.rotation,
+                          s.bed.potential,
+                          s.bed.elastic,
+                          s.bed.dissipated,
+                          s.bed.wall_force.x,
+                          s.bed.wall_force.y,
+                          s.bed.wall_force.z,
+                          s.traffic.fed_mass,
+                          s.traffic.left_mass,
+                          static_cast<double>(s.traffic.left)};
     series_->append(row);
 }
 
@@ -340,6 +381,7 @@ void Output::picture()
     }
     io::write_snapshot(folder_ + "/snapshots.h5", snapshot);
     view_ = std::move(snapshot.granules);
+    walls_.picture(pictures_);
     ++pictures_;
 }
 }

@@ -8,7 +8,9 @@
 #include "granum/io/vtk.hpp"
 #include "granum/product/aggregate.hpp"
 #include "granum/product/all.hpp"
+#include "granum/sim/bed_statistics.hpp"
 #include "granum/sim/simulation.hpp"
+#include "granum/sim/wall_output.hpp"
 
 #include <memory>
 #include <string>
@@ -22,6 +24,8 @@ struct Sample
     double time;
     Readings readings;
     SprayTotals totals;
+    BedStatistics bed;
+    Traffic traffic;
 };
 
 //! Writes what the simulation shows. Only rank 0 touches the disk; every call is collective.
@@ -44,6 +48,11 @@ class Output
     std::vector<Sample> const& samples() const { return samples_; }
     std::vector<product::LayerSum> const& layers() const { return layers_; }  //!< by granule, sprayed events only
     long event_count() const { return event_count_; }
+    //! @{ Mechanical energy now, lost and gone out less that at the start and brought in, J; and the largest sum of
+    //! motion and loss met, J. Moving walls and the gas do work that is not in it.
+    double energy_residual() const { return energy_residual_; }
+    double energy_passed() const { return energy_passed_; }
+    //! @}
     io::GranuleView const& last_view() const { return view_; }
 
   private:
@@ -57,11 +66,13 @@ class Output
     std::unique_ptr<io::SeriesWriter> series_;
     std::unique_ptr<io::EventsWriter> events_;
     std::unique_ptr<io::RowLog> event_log_;  //!< the same rows in our own format, from which events.h5 can be made anew
+    WallOutput walls_;
     io::Collection granules_, droplets_, gas_;
     std::vector<Sample> samples_;
     std::vector<product::LayerSum> layers_;
     product::Any model_;
     io::GranuleView view_;
+    double energy_residual_ = 0, energy_passed_ = 0;
     long event_count_ = 0;
     int pictures_ = 0;
 };

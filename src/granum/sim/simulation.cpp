@@ -35,14 +35,17 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     else
         place_granules();
     if (case_.spray.present) {
-        deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.parcels));
+        deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.first_free));
         engine_->attach(*deposits_);
     }
     if (saved) {
         take_contacts(*state);
     } else {
         engine_->prepare(granules_);
-        if (case_.granules.start == "settled") settle();
+        if (case_.granules.start == "settled" || case_.granules.start == "poured") settle_between_still_walls();
+        auto& watch = engine_->watch();  // from here on it watches the run
+        watch.largest_overlap = watch.dissipated = 0;
+        watch.warned_overlaps = 0;
     }
     if (case_.gas.present) {
         grid_ = grid::build(chamber, number, case_.periodic, slabs_, comm_.rank());
@@ -110,6 +113,8 @@ void Simulation::step(double longest)
     granule_steps_ += substeps * comm_.sum(static_cast<long>(granules_.owned));
     time_ += dt;
     ++steps_;
+    if (!has_gas()) let_out();
+    feed_all(time_);
     audit();
 }
 

@@ -15,6 +15,8 @@
 #include "granum/sim/case.hpp"
 #include "granum/sim/ledger.hpp"
 #include "granum/sim/surroundings.hpp"
+#include "granum/sim/traffic.hpp"
+#include "granum/sim/wall_room.hpp"
 #include "granum/spray/flight.hpp"
 #include "granum/spray/nozzle.hpp"
 
@@ -78,6 +80,8 @@ class Simulation
     Ledgers const& ledgers() const { return ledgers_; }
     SprayTotals totals() const;  //!< Collective.
     Readings readings() const;   //!< Collective.
+    Traffic const& traffic() const { return traffic_; }
+    std::vector<Feed> const& feeds() const { return feeds_; }
     base::Stopwatch& stopwatch() { return stopwatch_; }
     double local_drying_potential(double temperature, double vapour_fraction) const;
     long unconverged_steps() const { return unconverged_; }  //!< gas steps whose pressure missed its tolerance
@@ -104,7 +108,14 @@ class Simulation
     void make_gas();
     void start_gas();
     void start_deposits();
+    void hold_back(std::vector<GranuleCase>& list);  //!< moves what is fed out of the list
+    void fill_feeds();                               //!< as they were before anything came in
+    void settle_between_still_walls();
     void settle();
+    //! Brings what is due into the region of a feed, the same on every rank, and tells whether anything came.
+    bool feed(Feed& feed, double now);
+    void feed_all(double now);  //!< Collective.
+    void let_out();             //!< takes out, or refuses, what has left the domain. Collective.
     void fly_droplets(double dt);
     void receive(spray::Hit const& hit);
     void exchange_droplets(std::vector<spray::Droplet> leaving);
@@ -141,8 +152,14 @@ class Simulation
     std::array<double, 3> in_{}, out_{};
     SprayTotals mine_;
     gas::Balance last_;  //!< boundary flows of the last gas step
+    std::vector<Feed> feeds_;
+    std::vector<GranuleCase> poured_;      //!< until they have been poured, before the run
+    std::unique_ptr<WallRoom> wall_room_;  //!< for the feeds
+    Traffic traffic_;
+    double next_feed_ = 0;
+    long feed_rounds_ = 0;  //!< so that every try draws anew
     base::Stopwatch stopwatch_;
-    double time_ = 0, granule_dt_ = 0;
+    double time_ = 0, granule_dt_ = 0, largest_radius_ = 0;
     long steps_ = 0, granule_steps_ = 0, unconverged_ = 0;
 };
 }

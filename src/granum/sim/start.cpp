@@ -1,13 +1,11 @@
-// The state at time zero: granules where the case wants them, gas and moisture as the balance says they must end up.
+// The state of the process at time zero: gas and moisture as the balance says they must end up.
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
 #include "granum/law/droplet/size.hpp"
 #include "granum/law/impact/splash.hpp"
 #include "granum/law/wetting/footprint.hpp"
-#include "granum/particle/generate.hpp"
 #include "granum/sim/build.hpp"
 #include "granum/sim/simulation.hpp"
-#include "granum/sim/stop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,75 +32,6 @@ struct DryingCurve
         return water[i - 1] + part * (water[i] - water[i - 1]);
     }
 };
-}
-
-void Simulation::place_granules()
-{
-    auto& batch = case_.granules;
-    std::vector<GranuleCase> list = batch.given;
-    double count = 1;
-    if (list.empty()) {
-        double const one = batch.density * math::pi / 6 * std::pow(batch.diameter, 3);
-        double const real = batch.mass / one;
-        if (batch.parcels <= 0) batch.parcels = std::max(1L, std::lround(real / std::pow(batch.parcel_ratio, 3)));
-        count = real / static_cast<double>(batch.parcels);  // so that the batch has its mass to the last digit
-        double const radius = 0.5 * batch.diameter * std::cbrt(count);
-        auto const places = batch.start == "lattice"
-                                ? particle::lattice(case_.chamber, radius, 2.2 * radius, batch.parcels)
-                                : particle::random_loose(case_.chamber, radius, batch.parcels, case_.seed);
-        for (auto const& place : places) list.push_back({.position = place, .diameter = batch.diameter});
-    }
-    batch.parcels = static_cast<long>(list.size());
-    granules_.keep(column_groups(case_));
-    for (std::size_t id = 0; id < list.size(); ++id) {
-        GranuleCase const& given = list[id];
-        if (slabs_.owner(given.position.x) != comm_.rank()) continue;
-        std::size_t const row = granules_.rows();
-        granules_.resize(row + 1);
-        double const diameter = given.diameter > 0 ? given.diameter : batch.diameter;
-        double const density = given.density > 0 ? given.density : batch.density;
-        granules_.id[row] = id;
-        granules_.position[row] = given.position;
-        granules_.velocity[row] = given.velocity;
-        granules_.spin[row] = given.spin;
-        granules_.radius[row] = 0.5 * diameter * std::cbrt(count);
-        granules_.mass[row] = count * density * math::pi / 6 * diameter * diameter * diameter;
-        if (granules_.groups.parcel) {
-            granules_.count[row] = count;
-            granules_.diameter[row] = diameter;
-        }
-        if (granules_.groups.process) {
-            granules_.core_mass[row] = granules_.mass[row];
-            granules_.core_diameter[row] = diameter;
-            granules_.temperature[row] = math::zero_celsius;
-        }
-    }
-    granules_.owned = granules_.rows();
-}
-
-void Simulation::settle()
-{
-    // The granules fall under gravity as in a still, thick gas that slows them by this rate, 1/s, until they rest.
-    double const rate = 5, slowed = std::exp(-rate * granule_dt_);
-    double const g = math::norm(case_.gravity);
-    double const radius = largest_radius(case_);
-    int const batch = 100;
-    for (int round = 0; round < 400; ++round) {
-        for (int s = 0; s < batch; ++s) {
-            engine_->step(granules_, granule_dt_);
-            for (std::size_t row = 0; row < granules_.owned; ++row) granules_.velocity[row] *= slowed;
-        }
-        double squares = 0;
-        for (std::size_t row = 0; row < granules_.owned; ++row) squares += math::norm2(granules_.velocity[row]);
-        double const mean = comm_.sum(squares) / static_cast<double>(case_.granules.parcels);
-        bool const stop = comm_.max(stop_requested() ? 1L : 0L) > 0;
-        if (stop || (round > 5 && mean < 0.01 * g * radius)) break;
-    }
-    for (std::size_t row = 0; row < granules_.rows(); ++row) {
-        granules_.velocity[row] = {};
-        granules_.spin[row] = {};
-    }
-    engine_->prepare(granules_);
 }
 
 void Simulation::make_gas()

@@ -36,6 +36,21 @@ json ledger(Ledger const& l)
             {"unit", l.unit}};
 }
 
+json packing_part(BedStatistics const& bed)
+{
+    return {{"coordination_number", bed.coordination},
+            {"share_with_neighbours", bed.neighbours},
+            {"contacts", bed.contacts},
+            {"wall_contacts", bed.wall_contacts},
+            {"overlap",
+             {{"mean", bed.overlap_mean},
+              {"p99", bed.overlap_p99},
+              {"largest", bed.overlap_largest},
+              {"criterion", overlap_criterion},
+              {"share_beyond", bed.overlap_beyond}}},
+            {"wall_force_N", {bed.wall_force.x, bed.wall_force.y, bed.wall_force.z}}};
+}
+
 json product_part(Simulation const& simulation, Output const& output)
 {
     auto const& data = simulation.data();
@@ -91,6 +106,24 @@ std::string summary(Simulation const& simulation, Output const& output, Performa
                        {"represented", represented},
                        {"mass_kg", data.granules.mass},
                        {"parcel_ratio", data.granules.parcel_ratio}};
+    out["packing"] = packing_part(last.bed);
+    bool const still =
+        std::all_of(data.walls.begin(), data.walls.end(), [](auto const& w) { return w.motions.empty(); });
+    out["mechanics"] = {{"kinetic_J", last.bed.translation},
+                        {"rotation_J", last.bed.rotation},
+                        {"potential_J", last.bed.potential},
+                        {"elastic_J", last.bed.elastic},
+                        {"dissipated_J", last.bed.dissipated}};
+    if (!simulation.has_gas() && still) {
+        out["mechanics"]["residual_J"] = output.energy_residual();
+        out["mechanics"]["relative_error"] =
+            output.energy_passed() > 0 ? output.energy_residual() / output.energy_passed() : 0;
+    }
+    if (!data.feeds.empty() || last.traffic.left > 0)
+        out["traffic"] = {{"fed_kg", last.traffic.fed_mass},
+                          {"fed_parcels", last.traffic.fed},
+                          {"discharged_kg", last.traffic.left_mass},
+                          {"discharged_parcels", last.traffic.left}};
     if (simulation.has_gas()) {
         auto const& steady = simulation.steady();
         out["gas"]["cells"] = data.gas.cells[0] * data.gas.cells[1] * data.gas.cells[2];
@@ -164,6 +197,24 @@ std::string closing_words(std::string const& summary_json)
             p["mean"].get<double>(), p["interval_low"].get<double>(), p["interval_high"].get<double>(),
             p["p10"].get<double>(), p["p50"].get<double>(), p["p90"].get<double>());
         out += fmt::format("                  {}\n", product["notice"].get<std::string>());
+    }
+    if (!s.contains("gas") && s.contains("packing")) {
+        auto const& overlap = s["packing"]["overlap"];
+        out += fmt::format(
+            "packing           coordination {:.2f}; overlaps mean {:.2g} %, 99 % below {:.2g} %, largest {:.2g} %\n",
+            s["packing"]["coordination_number"].get<double>(), 100 * overlap["mean"].get<double>(),
+            100 * overlap["p99"].get<double>(), 100 * overlap["largest"].get<double>());
+        auto const& energy = s["mechanics"];
+        out += fmt::format("energy            moving {:.3g} J, dissipated {:.3g} J",
+                           energy["kinetic_J"].get<double>() + energy["rotation_J"].get<double>(),
+                           energy["dissipated_J"].get<double>());
+        if (energy.contains("relative_error"))
+            out += fmt::format(", missing {:.1e} of what moved or was lost", energy["relative_error"].get<double>());
+        out += "\n";
+        if (s.contains("traffic"))
+            out += fmt::format("granules          fed {:.4g} kg, discharged {:.4g} kg\n",
+                               s["traffic"]["fed_kg"].get<double>(), s["traffic"]["discharged_kg"].get<double>());
+        return out;
     }
     auto const known = [](json const& part, std::initializer_list<char const*> keys) {
         return std::all_of(keys.begin(), keys.end(), [&](char const* key) { return part[key].is_number(); });

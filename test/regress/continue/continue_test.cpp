@@ -36,6 +36,35 @@ series_interval = "2 ms"
 checkpoint_interval = "0.1 s"
 )";
 
+//! What comes in goes down a turning disc and out.
+constexpr auto fed_granules = R"(
+title = "Granules that pass a turning disc"
+[apparatus]
+shape = "box"
+size = ["20 mm", "20 mm", "40 mm"]
+open = ["left", "right", "bottom"]
+leaving = "discharge"
+[[wall]]
+name = "disc"
+shape = "disc"
+centre = ["10 mm", "10 mm", "15 mm"]
+diameter = "18 mm"
+rotate = { point = ["10 mm", "10 mm", "0 mm"], axis = [0, 0, 1], rate = "600 rpm" }
+[granules]
+density = "1500 kg/m3"
+size = { distribution = "uniform", min = "1 mm", max = "2.5 mm" }
+number = 150
+[[feed]]
+lower = ["5 mm", "2 mm", "30 mm"]
+upper = ["15 mm", "18 mm", "38 mm"]
+rate = "1.5 g/s"
+[time]
+duration = "0.2 s"
+[output]
+interval = "50 ms"
+series_interval = "2 ms"
+)";
+
 class Continue : public ::testing::Test
 {
   protected:
@@ -132,6 +161,25 @@ TEST_F(Continue, granules_alone_end_the_same_on_other_ranks)
     ASSERT_EQ(run({folder / "other", "-n", "2", "--until", "0.1 s", "--quiet"}), 0);
     EXPECT_EQ(summary("one")["state_hash"], summary("other")["state_hash"]);
     EXPECT_EQ(summary("other")["run"]["ranks"], 2);
+}
+
+TEST_F(Continue, what_is_still_to_be_fed_and_a_wall_that_turns_go_on_too)
+{
+    std::ofstream(path) << fed_granules;
+    ASSERT_EQ(run({path, "-n", "1", "-o", folder / "whole", "--quiet"}), 0);
+    ASSERT_EQ(run({path, "-n", "1", "-o", folder / "cut", "--until", "0.1 s", "--quiet"}), 0);
+    ASSERT_EQ(run({folder / "cut", "-n", "1", "--quiet"}), 0);
+    auto const traffic = summary("whole")["traffic"];
+    EXPECT_GT(traffic["discharged_parcels"], 5) << "or nothing would be tested";
+    EXPECT_GT(traffic["fed_parcels"], 50);
+    EXPECT_EQ(summary("whole")["state_hash"], summary("cut")["state_hash"]);
+    EXPECT_EQ(traffic, summary("cut")["traffic"]);
+    auto const loads = [&](std::string const& name) { return io::read_series(folder / (name + "/walls.csv")); };
+    EXPECT_GT(loads("whole").rows(), 50u);
+    EXPECT_EQ(loads("whole").find("time")->back(), loads("cut").find("time")->back());
+    EXPECT_EQ(loads("whole").find("disc_torque_z")->back(), loads("cut").find("disc_torque_z")->back());
+    ASSERT_EQ(run({path, "-n", "2", "-o", folder / "two", "--quiet"}), 0);
+    EXPECT_EQ(summary("whole")["state_hash"], summary("two")["state_hash"]) << "on two ranks";
 }
 
 TEST_F(Continue, another_case_is_refused_with_what_differs)

@@ -48,3 +48,49 @@ TEST(LoosePacking, that_does_not_fit_is_refused)
     EXPECT_THROW(particle::random_loose(box, 1e-3, 400, 1), base::NumericsError);
 }
 }
+
+namespace
+{
+TEST(RandomPlaces, of_sizes_ten_apart_do_not_overlap_and_fill_three_tenths_of_a_box)
+{
+    std::vector<double> radii;
+    for (int k = 0; k < 4000; ++k) radii.push_back(k < 8 ? 5e-3 : 0.5e-3 * (1 + 0.2 * (k % 5)));
+    particle::Region const box{{0, 0, 0}, {0.03, 0.03, 0.1}, [](math::Vec3 const& x, double radius) {
+                                   return x.x > radius && x.y > radius && x.z > radius;
+                               }};
+    auto const centres = particle::random_places(box, radii, 5);
+    double highest = 0, volume = 0;
+    for (std::size_t a = 0; a < radii.size(); ++a) {
+        highest = std::max(highest, centres[a].z + radii[a]);
+        volume += 4.0 / 3.0 * math::pi * radii[a] * radii[a] * radii[a];
+        for (std::size_t d = 0; d < 3; ++d) {
+            EXPECT_GE(centres[a][d], radii[a]);
+            EXPECT_LE(centres[a][d], box.upper[d] - radii[a]);
+        }
+        for (std::size_t b = 0; b < a; ++b) EXPECT_GT(norm(centres[a] - centres[b]), radii[a] + radii[b]);
+    }
+    EXPECT_NEAR(volume / (0.03 * 0.03 * highest), 0.30, 0.02);
+    EXPECT_EQ(centres, particle::random_places(box, radii, 5));
+    EXPECT_NE(centres, particle::random_places(box, radii, 6));
+}
+
+TEST(RandomPlaces, that_do_not_fit_are_refused)
+{
+    std::vector<double> const radii(200, 1e-3);
+    particle::Region const box{{0, 0, 0}, {0.01, 0.01, 0.01}, [](auto const&, double) { return true; }};
+    EXPECT_THROW(particle::random_places(box, radii, 1), base::NumericsError);
+}
+
+TEST(Lattice, with_noise_has_no_overlaps)
+{
+    geometry::Chamber box;
+    box.size = {0.05, 0.05, 0.05};
+    auto const still = particle::lattice(box, 1e-3, 2.2e-3, 1000);
+    auto const moved = particle::lattice(box, 1e-3, 2.2e-3, 1000, 1.0, 4);
+    EXPECT_NE(still, moved);
+    for (std::size_t a = 0; a < moved.size(); ++a) {
+        EXPECT_TRUE(box.inside(moved[a], 1e-3));
+        for (std::size_t b = 0; b < a; ++b) EXPECT_GE(norm(moved[a] - moved[b]), 2e-3);
+    }
+}
+}

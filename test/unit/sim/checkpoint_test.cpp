@@ -122,6 +122,9 @@ TEST(Continued, no_member_was_added_to_the_state_without_a_thought)
     EXPECT_EQ(sizeof(gas::State), 14 * sizeof(grid::Field));
     EXPECT_EQ(sizeof(sim::SprayTotals), 72u);
     EXPECT_EQ(sizeof(gas::Balance), 56u);
-    EXPECT_EQ(sizeof(sim::Sample), 8 + sizeof(sim::Readings) + sizeof(sim::SprayTotals));
+    EXPECT_EQ(sizeof(sim::Sample),
+              8 + sizeof(sim::Readings) + sizeof(sim::SprayTotals) + sizeof(sim::BedStatistics) + sizeof(sim::Traffic));
+    EXPECT_EQ(sizeof(sim::Traffic), 48u);
+    EXPECT_EQ(sizeof(sim::Feed), sizeof(sim::FeedCase) + sizeof(std::vector<sim::GranuleCase>) + 16);
     EXPECT_EQ(sizeof(sim::Readings), 96u);
 }

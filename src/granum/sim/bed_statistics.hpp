@@ -1,0 +1,36 @@
+// The bed as a packing: who touches whom, how deeply, and where its energy is.
+#pragma once
+
+#include "granum/dem/engine.hpp"
+#include "granum/par/communicator.hpp"
+#include "granum/particle/store.hpp"
+
+#include <array>
+
+namespace granum::sim
+{
+//! Overlaps above this share of a radius change what a packing does: the usual criterion for a softened contact [R].
+inline constexpr double overlap_criterion = 0.003;
+
+struct BedStatistics
+{
+    long contacts = 0;                    //!< pairs of granules that touch
+    long wall_contacts = 0;               //!< granules on walls, each contact counted
+    double coordination = 0;              //!< mean number of granules that a granule touches
+    std::array<double, 16> neighbours{};  //!< share of the granules that touch k others; the last: 15 or more
+    //! @{ Overlaps of all contacts over the radius of the smaller partner.
+    double overlap_mean = 0, overlap_p99 = 0, overlap_largest = 0;
+    double overlap_beyond = 0;  //!< share of the contacts above `overlap_criterion`
+    //! @}
+    double translation = 0, rotation = 0;  //!< kinetic energy, J
+    double potential = 0;                  //!< against gravity, from the origin, J
+    double elastic = 0;                    //!< stored in contacts, J
+    double dissipated = 0;                 //!< lost in contacts since the engine began, J
+    math::Vec3 wall_force;                 //!< of all granules on all walls, N
+
+    double energy() const { return translation + rotation + potential + elastic; }
+};
+
+//! Collective. The percentile is that of a histogram with classes 1 % wide.
+BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engine, par::Communicator const& comm);
+}
