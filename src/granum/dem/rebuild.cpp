@@ -132,6 +132,12 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
                       "largest granule ({:.4g} m), so that no granule meets another from both sides",
                       domain.size()[d], names[d], 4 * largest);
     skin = next_skin(mean, largest);
+    if (rules.coarse_energy == 0 && largest > 0) {
+        double const force = frame.unit_force * (frame.unit_power == 2 ? largest * largest : largest);
+        double const coarse = kernel::power_of_two_below(force * largest) * 0x1p-30;
+        rules.coarse_energy = 1.5 * 0x1p52 * coarse;
+        rules.fine_energy = 1.5 * 0x1p52 * (coarse * 0x1p-28);
+    }
 
     for (std::size_t row = 0; row < frame.owned; ++row)
         for (std::size_t d = 0; d < 3; ++d) {

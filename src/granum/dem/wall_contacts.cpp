@@ -374,10 +374,10 @@ std::vector<WallContacts::ExactLoad> WallContacts::tally(Frame const& frame, par
 
 Vec3 WallContacts::force() const
 {
-    Vec3 sum;
+    std::array<base::ExactSum, 3> sums;
     for (std::size_t k = 0; k < size_; ++k)
-        if (touches(k)) sum += get(force_, k);
-    return sum;
+        for (std::size_t d = 0; d < 3; ++d) sums[d].add(force_[d][k]);
+    return {sums[0].value(), sums[1].value(), sums[2].value()};
 }
 
 std::vector<WallLoad> WallContacts::loads(Frame const& frame, par::Communicator const& comm) const

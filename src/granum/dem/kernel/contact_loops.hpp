@@ -187,12 +187,29 @@ Laws chosen(Rules const& rules)
 }
 
 // What a pass adds up.
+struct Energy
+{
+    Lanes coarse = 0.0, fine = 0.0;
+
+    HWY_INLINE void add(Lanes energy, Lanes coarse_by, Lanes fine_by)
+    {
+        Lanes const rough = (energy + coarse_by) - coarse_by;
+        coarse += rough;
+        fine += ((energy - rough) + fine_by) - fine_by;
+    }
+    double value() const { return sum(coarse) + sum(fine); }
+};
+
 struct Tally
 {
-    Lanes worst, dissipated = 0.0, elastic = 0.0;
+    Lanes worst, coarse_by, fine_by;
+    Energy dissipated, elastic;
     long contacts = 0;
 
-    HWY_INLINE explicit Tally(Seen const& seen) : worst(seen.largest_overlap) {}
+    HWY_INLINE Tally(Rules const& rules, Seen const& seen)
+        : worst(seen.largest_overlap), coarse_by(rules.coarse_energy), fine_by(rules.fine_energy)
+    {
+    }
     HWY_INLINE void overlap(Mask touch, Lanes overlap, Lanes radius)
     {
         Mask const worse = touch & (overlap > worst * radius);
@@ -201,12 +218,12 @@ struct Tally
     // A contact that ended leaves what its springs had stored.
     HWY_INLINE void ended(Mask over, Lanes share, double const* stored)
     {
-        dissipated += select(over, share * load(stored), Lanes(0.0));
+        dissipated.add(select(over, share * load(stored), Lanes(0.0)), coarse_by, fine_by);
     }
     HWY_INLINE void energies(Staged const& contact, Lanes share)
     {
-        dissipated += select(contact.touch, share * contact.dissipated, Lanes(0.0));
-        elastic += select(contact.touch, share * contact.elastic, Lanes(0.0));
+        dissipated.add(select(contact.touch, share * contact.dissipated, Lanes(0.0)), coarse_by, fine_by);
+        elastic.add(select(contact.touch, share * contact.elastic, Lanes(0.0)), coarse_by, fine_by);
     }
     void tell(Seen& seen) const
     {
@@ -215,8 +232,8 @@ struct Tally
         for (std::size_t lane = 0; lane < width; ++lane)
             if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
         seen.contacts += contacts;
-        seen.dissipated += sum(dissipated);
-        seen.elastic += sum(elastic);
+        seen.dissipated += dissipated.value();
+        seen.elastic += elastic.value();
     }
 };
 
@@ -234,7 +251,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
     std::size_t const columns = rules.columns;
     Pairings pairings(rules, in.material);
     Lanes const shift = rules.lever_shift;
-    Tally tally(seen);
+    Tally tally(rules, seen);
     Staged contact;
     contact.at.step = in.dt;
     contact.at.inertia = 1.0;
@@ -311,7 +328,7 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
     std::size_t const columns = rules.columns;
     Pairings pairings(rules, in.material);
     Lanes const zero = 0.0, shift = rules.lever_shift;
-    Tally tally(seen);
+    Tally tally(rules, seen);
     Staged contact;
     contact.at.step = in.dt;
     contact.at.inertia = 1.0;

@@ -52,7 +52,10 @@ struct Rules
     double lever_shift = 0.5;  //!< lever of the contact point: radius less this part of the overlap
     bool inertia = false;      //!< a law asks for Approach::inertia
     bool ledger = false;       //!< account for energies: two more columns of history
-    std::size_t columns = 6;   //!< of history
+    //! Energies are summed in two parts, each in multiples of a power of two, so that these sums know no order either:
+    //! 1.5 * 2^52 times the coarse and the fine one, J.
+    double coarse_energy = 0, fine_energy = 0;
+    std::size_t columns = 6;  //!< of history
 };
 
 //! What a pass saw. With a partner that another rank owns, each side counts one half of the energies.
