@@ -5,7 +5,9 @@
 // are exact. The impulse that the gas gave is summed in `drag_impulse`.
 //
 // Without gas a state has the same bits on any number of ranks, with any neighbour list, in any order of rows and after
-// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius.
+// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius and no granule crosses a
+// periodic face: it is brought back when the list is made anew, and that moment, which is not the same everywhere,
+// rounds its place.
 #pragma once
 
 #include "granum/base/timer.hpp"
