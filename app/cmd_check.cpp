@@ -36,6 +36,10 @@ void print_bed(sim::Case const& data, sim::Forecast const& f)
          fmt::format("{}, ratio {:.3g}: {:.3g} mm wide, {:.4g} granules each", f.parcels, data.granules.parcel_ratio,
                      1e3 * f.parcel_diameter, f.granules / static_cast<double>(f.parcels)));
     if (f.bed_height > 0) line("settled bed", fmt::format("{:.1f} mm high at 60 % solids", 1e3 * f.bed_height));
+    if (data.contact.hard()) {
+        line("contacts", "hard spheres: from collision to collision, without overlap and without a step, on one rank");
+        return;
+    }
     line("overlap",
          fmt::format("about {:.1f} % of a radius in a contact at {:.2g} m/s", 100 * f.overlap, f.overlap_speed));
     double least = f.bounds.front().seconds;
@@ -67,7 +71,7 @@ int check(std::string const& path)
 {
     auto const resolved = sim::read_case(path);
     auto const& data = resolved.data;
-    int const ranks = cores();
+    int const ranks = data.contact.hard() ? 1 : cores();
     auto const f = sim::forecast(data, ranks);
     fmt::print("{}: {}\n", path, data.title);
     print_bed(data, f);
@@ -79,8 +83,9 @@ int check(std::string const& path)
                                     100 * b.outlet_relative_humidity, b.wet_bulb - 273.15, b.eta));
     }
     line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));
-    line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)", duration(f.wall_time),
-                                  data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
+    if (f.wall_time > 0)
+        line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)", duration(f.wall_time),
+                                      data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
     for (auto const& warning : resolved.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("the case can be run\n");
     return 0;

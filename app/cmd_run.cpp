@@ -82,8 +82,21 @@ std::optional<double> read_until(Wish const& wish)
 }
 
 //! As many ranks as there are cores, but each with at least two layers of cells of its slab.
-int choose_ranks(Wish const& wish, sim::Case const& data)
+int choose_ranks(Wish const& wish, sim::ResolvedCase const& resolved)
 {
+    auto const& data = resolved.data;
+    if (data.contact.hard()) {
+        if (wish.ranks <= 1) return 1;
+        int line = 0;
+        for (auto const& origin : resolved.origins)
+            if (origin.key == "contact.engine" && origin.origin.starts_with("line "))
+                line = std::atoi(origin.origin.c_str() + 5);
+        throw base::CaseError({{data.file,
+                                line,
+                                "contact.engine = \"hard\"",
+                                fmt::format("runs on one rank, not on -n {}", wish.ranks),
+                                {"leave -n out, or choose contact.engine = \"soft\""}}});
+    }
     int const most = sim::cells(data)[0];
     if (wish.ranks > most && wish.ranks > 1)
         throw base::CaseError({{"",
@@ -189,7 +202,7 @@ int run(Wish const& asked)
         return 0;
     }
     options.folder = place.folder, options.go_on = place.go_on;
-    int const ranks = choose_ranks(wish, resolved.data);
+    int const ranks = choose_ranks(wish, resolved);
     if (!wish.quiet && !wish.json)
         for (auto const& warning : resolved.warnings) fmt::print(stderr, "warning: {}\n", warning);
     int status = ranks == 1 ? run_here(resolved, options) : launch(wish, place, ranks);

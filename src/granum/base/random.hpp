@@ -31,7 +31,8 @@ enum class Purpose : std::uint32_t
     capture,
     impact,
     deposit,
-    test
+    test,
+    agitation
 };
 
 //! A stream of numbers for one (seed, purpose, id, step).

@@ -22,11 +22,6 @@ void EventQueue::move(std::uint32_t who, double time)
         sink(at, {time, who});
 }
 
-void EventQueue::shift(double span)
-{
-    for (auto& entry : heap_) entry.time -= span;
-}
-
 void EventQueue::rise(std::size_t at, Entry entry)
 {
     while (at > 0) {

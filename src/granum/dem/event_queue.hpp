@@ -17,8 +17,6 @@ class EventQueue
     bool empty() const { return heap_.empty(); }
     //! Moves the entry of `who` to `time`. O(log n).
     void move(std::uint32_t who, double time);
-    //! Takes `span` off all times; the order stays.
-    void shift(double span);
 
   private:
     struct Entry

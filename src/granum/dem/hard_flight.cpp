@@ -15,8 +15,6 @@ void HardFlight::start(double now, double horizon)
     auto& state = world_.state;
     std::size_t const number = state.size();
     horizon_ = horizon;
-    handled_ = 0;
-    handled_since_ = now;
     for (std::size_t i = 0; i < number; ++i) state.bring(i, now);
     cells_.build(state, now, 0);
     next_.assign(number, {never, nobody, 0});
@@ -241,9 +239,8 @@ void HardFlight::collide_wall(std::size_t i, std::size_t wall, double now)
         impulse -= (mass * (least - parting)) * n;
         lost -= 0.5 * mass * (least * least - parting * parting);
     }
-    world_.push(i, n, impulse);
+    world_.push_off(i, wall, n, impulse);
     world_.watch.dissipated += lost;
-    world_.watch.wall_impulse += impulse;
     state.last[i] = now;
     ++world_.watch.wall_collisions;
 }
@@ -277,11 +274,10 @@ double HardFlight::advance(double now, double until)
             collide_wall(i, event.partner - wall_first, now);
             predict(i, now);
         }
-        if (++handled_ < window) continue;
+        if (++pace.collisions < window) continue;
         // The mean time between collisions of one sphere over the window; each concerns two.
-        double const mean = 0.5 * number * (now - handled_since_) / static_cast<double>(handled_);
-        handled_ = 0;
-        handled_since_ = now;
+        double const mean = 0.5 * number * (now - pace.since) / static_cast<double>(pace.collisions);
+        pace = {0, now};
         if (mean > 10 * world_.contact_time) continue;
         for (std::size_t k = 0; k < state.size(); ++k) state.bring(k, now);
         return now;
@@ -289,12 +285,4 @@ double HardFlight::advance(double now, double until)
     return until;
 }
 
-void HardFlight::shift(double span)
-{
-    for (auto& next : next_) next.time -= span;
-    for (auto& exit : exit_) exit.time -= span;
-    queue_.shift(span);
-    handled_since_ -= span;
-    horizon_ -= span;
-}
 }

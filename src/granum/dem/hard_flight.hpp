@@ -25,8 +25,13 @@ class HardFlight
     //! follow each other so fast that there is no getting on; all rows are then at that time.
     double advance(double now, double until);
 
-    //! Takes `span` off all times.
-    void shift(double span);
+    //! Collisions counted from a moment on, by which `advance` sees that there is no getting on.
+    struct Pace
+    {
+        long collisions = 0;
+        double since = 0;  //!< s
+    };
+    Pace pace;
 
   private:
     struct Next
@@ -57,7 +62,5 @@ class HardFlight
     std::vector<HardCells::Exit> exit_;
     std::vector<std::uint32_t> hits_;
     double horizon_ = 0;
-    long handled_ = 0;          // collisions since the rate was last looked at
-    double handled_since_ = 0;  // s
 };
 }

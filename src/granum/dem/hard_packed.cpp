@@ -95,11 +95,12 @@ bool HardPacked::push_apart(Contact& contact, double step, double slow, double d
     }
     double const mass = wall ? state.mass[i] : world_.reduced_mass(i, j);
     auto const [impulse, lost] = world_.bounce(pair, mass, n, slip);
-    world_.push(i, n, impulse);
-    if (wall)
-        world_.watch.wall_impulse += impulse;
-    else
+    if (wall) {
+        world_.push_off(i, contact.second - wall_first, n, impulse);
+    } else {
+        world_.push(i, n, impulse);
         world_.push(j, -n, -impulse);
+    }
     world_.watch.dissipated += lost;
     touched_[i] = 1;
     if (!wall) touched_[j] = 1;

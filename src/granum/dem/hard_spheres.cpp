@@ -17,10 +17,8 @@ struct HardSpheres::Inside
     HardFlight flight{world};
     HardPacked packed{world};
     base::Stopwatch stopwatch;
-    std::vector<Vec3> drag;   // acceleration by drag, held over the step, m/s2
-    bool flying = false;      // the events of `flight` are those of the present state
-    int packed_steps = 0;     // time-driven steps that are left before flight is tried again
-    double longest_span = 1;  // s: times count up to this, so that they have digits enough
+    std::vector<Vec3> drag;  // acceleration by drag, held over the step, m/s2
+    int packed_steps = 0;    // time-driven steps that are left before flight is tried again
 
     Inside(Settings given, HardOptions const& options)
         : settings(std::move(given)),
@@ -42,6 +40,7 @@ struct HardSpheres::Inside
     void take(particle::Store const& granules);
     void check(particle::Store const& granules) const;
     void accelerate(particle::Store const& granules, double dt);
+    double longest_span() const;
     void run(double dt);
     void give(particle::Store& granules, double dt);
 };
@@ -56,19 +55,17 @@ void HardSpheres::Inside::take(particle::Store const& granules)
     state.material.assign(granules.material.values.begin(),
                           granules.material.values.begin() + static_cast<std::ptrdiff_t>(number));
     state.last.assign(number, -math::never);
-    double smallest = 1, fastest = 0;
     for (std::size_t i = 0; i < number; ++i) {
         Vec3 x = granules.position[i];
         for (std::size_t d = 0; d < 3; ++d)
             if (state.periodic[d]) {
                 double const width = state.upper[d] - state.lower[d];
-                x[d] -= width * std::floor((x[d] - state.lower[d]) / width);
+                if (x[d] < state.lower[d] || x[d] >= state.upper[d])
+                    x[d] -= width * std::floor((x[d] - state.lower[d]) / width);
             }
         state.body[i] = {x, granules.velocity[i], 0, granules.radius[i]};
-        smallest = std::min(smallest, granules.radius[i]);
-        fastest = std::max(fastest, norm(granules.velocity[i]));
     }
-    longest_span = 1e4 * smallest / std::max(fastest, 1.0);
+    state.own.clear();
 }
 
 void HardSpheres::Inside::check(particle::Store const& granules) const
@@ -114,6 +111,7 @@ void HardSpheres::Inside::check(particle::Store const& granules) const
 
 void HardSpheres::Inside::accelerate(particle::Store const& granules, double dt)
 {
+    if (!granules.groups.gas) return;
     // Implicit in the drag like the kick of the soft engine: at the end of a step without collisions the velocity is
     // (v + dt (F/m + rate u)) / (1 + dt rate).
     auto& state = world.state;
@@ -139,24 +137,34 @@ void HardSpheres::Inside::accelerate(particle::Store const& granules, double dt)
         state.own.clear();
     else
         state.own = std::move(own);
-    flying = false;
+}
+
+// Times within a step count up to this, so that they have digits enough, s.
+double HardSpheres::Inside::longest_span() const
+{
+    double smallest = 1, fastest = 1;
+    for (auto const& body : world.state.body) {
+        smallest = std::min(smallest, body.radius);
+        fastest = std::max(fastest, norm(body.v));
+    }
+    return 1e4 * smallest / fastest;
 }
 
 void HardSpheres::Inside::run(double dt)
 {
     auto& state = world.state;
     if (state.size() == 0) return;
+    double const longest = longest_span();
     for (double left = dt; left > 0;) {
-        double const span = std::min(left, longest_span);
+        double const span = std::min(left, longest);
         double now = 0;
         while (now < span) {
             if (packed_steps > 0) {
                 now = packed.advance(now, span, packed_steps);
-                flying = false;
+                flight.pace = {0, now};
                 continue;
             }
-            if (!flying) flight.start(now, span);
-            flying = state.uniform();  // accelerations of their own are held for this step only
+            flight.start(now, span);
             double const reached = flight.advance(now, span);
             if (reached < span) {
                 ++world.watch.collapses;
@@ -164,19 +172,22 @@ void HardSpheres::Inside::run(double dt)
             }
             now = reached;
         }
-        for (auto& body : state.body) body.t -= span;
-        for (auto& last : state.last) last -= span;
-        flight.shift(span);
+        for (std::size_t i = 0; i < state.size(); ++i) {
+            state.bring(i, span);
+            state.body[i].t = 0;
+            state.last[i] -= span;
+        }
+        flight.pace.since -= span;
         left = span < left ? left - span : 0;
     }
 }
 
 void HardSpheres::Inside::give(particle::Store& granules, double dt)
 {
-    auto const& state = world.state;
+    auto& state = world.state;
     bool good = true;
     for (std::size_t i = 0; i < state.size(); ++i) {
-        Vec3 x = state.position(i, 0);
+        Vec3& x = state.body[i].x;
         for (std::size_t d = 0; d < 3; ++d) {
             if (!state.periodic[d]) continue;
             double const width = state.upper[d] - state.lower[d];
@@ -184,9 +195,9 @@ void HardSpheres::Inside::give(particle::Store& granules, double dt)
             if (x[d] >= state.upper[d]) x[d] -= width;
         }
         granules.position[i] = x;
-        granules.velocity[i] = state.velocity(i, 0);
+        granules.velocity[i] = state.body[i].v;
         granules.spin[i] = state.spin[i];
-        granules.drag_impulse[i] += (state.mass[i] * dt) * drag[i];
+        if (granules.groups.gas) granules.drag_impulse[i] += (state.mass[i] * dt) * drag[i];
         good = good && finite(x) && finite(granules.velocity[i]) && finite(granules.spin[i]);
     }
     for (std::size_t i = 0; i < state.size() && !good; ++i)
@@ -206,10 +217,24 @@ void HardSpheres::prepare(particle::Store& granules)
     auto const timing = inside_->stopwatch.time(base::Stage::neighbours);
     auto& in = *inside_;
     in.take(granules);
-    in.world.state.own.clear();
     in.check(granules);
-    in.flying = false;
+    in.flight.pace = {};
     in.packed_steps = 0;
+}
+
+void HardSpheres::resume(particle::Store& granules, HardMemory const& memory)
+{
+    prepare(granules);
+    auto& in = *inside_;
+    in.world.state.last = memory.last;
+    in.world.state.last.resize(granules.owned, -math::never);
+    in.flight.pace = memory.pace;
+    in.packed_steps = memory.packed_steps;
+}
+
+HardMemory HardSpheres::memory() const
+{
+    return {inside_->world.state.last, inside_->flight.pace, inside_->packed_steps};
 }
 
 void HardSpheres::step(particle::Store& granules, double dt)
@@ -237,6 +262,10 @@ void HardSpheres::advance(particle::Store& granules, double dt, long steps)
 Settings const& HardSpheres::settings() const
 {
     return inside_->settings;
+}
+HardWatch const& HardSpheres::watch() const
+{
+    return inside_->world.watch;
 }
 HardWatch& HardSpheres::watch()
 {

@@ -7,6 +7,7 @@
 
 #include "granum/base/timer.hpp"
 #include "granum/dem/engine.hpp"
+#include "granum/dem/hard_flight.hpp"
 #include "granum/dem/hard_world.hpp"
 
 #include <memory>
@@ -21,6 +22,14 @@ struct HardOptions
     double contact_time = 1e-6;
 };
 
+//! What the next step depends on besides the columns of the granules; belongs in a checkpoint.
+struct HardMemory
+{
+    std::vector<double> last;  //!< time of each row's last collision, the present being 0, s
+    HardFlight::Pace pace;     //!< its time counts from the present too
+    int packed_steps = 0;      //!< time-driven steps that are left before flight is tried again
+};
+
 class HardSpheres
 {
   public:
@@ -33,7 +42,13 @@ class HardSpheres
     //! where a periodic domain is narrower than two diameters.
     void prepare(particle::Store& granules);
 
-    //! Moves the granules on by `dt` (s); rows keep their places. Throws NumericsError on a state that is not finite.
+    //! As prepare, but for a state that was saved with this memory: the run goes on with the same bits.
+    void resume(particle::Store& granules, HardMemory const& memory);
+    HardMemory memory() const;
+
+    //! Moves the granules on by `dt` (s); rows keep their places. Events are predicted anew from the columns, so that a
+    //! step does not know whether the one before was in the same run of the program.
+    //! Throws NumericsError on a state that is not finite.
     void step(particle::Store& granules, double dt);
 
     //! `steps` steps of `dt`, of which only the end is written to the store where no gas acts.
@@ -41,6 +56,7 @@ class HardSpheres
 
     Settings const& settings() const;
     HardWatch& watch();
+    HardWatch const& watch() const;
     base::Stopwatch& stopwatch();
 
   private:

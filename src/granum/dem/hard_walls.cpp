@@ -61,7 +61,8 @@ std::array<double, 5> room(ConeWall const& wall, Vec3 const& x, Vec3 const& v, V
 
 HardWalls::HardWalls(std::vector<geometry::Body> const& bodies)
 {
-    for (auto const& body : bodies) {
+    for (std::size_t number = 0; number < bodies.size(); ++number) {
+        auto const& body = bodies[number];
         bool known = body.motions.empty();
         for (auto const& shape : body.shapes) {
             auto const* const flank = std::get_if<geometry::Frustum>(&shape);
@@ -80,6 +81,7 @@ HardWalls::HardWalls(std::vector<geometry::Body> const& bodies)
             "wall {} is nothing that hard spheres can meet: they know planes and the insides of cylinders and "
             "cones about the z axis, at rest",
             body.name);
+        body_.resize(walls_.size(), number);
     }
     for (auto const& wall : walls_) {
         auto const* section = std::get_if<ConeWall>(&wall.surface);

@@ -19,6 +19,8 @@ class HardWalls
 
     std::size_t size() const { return walls_.size(); }
     std::uint32_t material(std::size_t wall) const { return walls_[wall].material; }
+    //! Number of the body that the wall is a part of.
+    std::size_t body(std::size_t wall) const { return body_[wall]; }
 
     //! Seconds, at most `longest`, until a sphere at x with velocity v and acceleration a begins to press on the wall;
     //! math::never if it does not.
@@ -42,7 +44,8 @@ class HardWalls
                         double longest) const;
 
     std::vector<geometry::Wall> walls_;
-    std::vector<bool> rim_;  // a section of which an end can be touched
+    std::vector<std::size_t> body_;  // of each
+    std::vector<bool> rim_;          // a section of which an end can be touched
     bool curved_ = false;
 };
 }

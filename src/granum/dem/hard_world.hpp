@@ -7,18 +7,26 @@
 
 namespace granum::dem
 {
+//! What granules gave to a body.
+struct HardLoad
+{
+    Vec3 impulse;  //!< N s
+    Vec3 turn;     //!< about the origin, N m s
+};
+
 //! What happened since the watch was last reset (by whoever reads it).
 struct HardWatch
 {
     long collisions = 0;  //!< of pairs
     long wall_collisions = 0;
-    long kept_elastic = 0;       //!< collisions taken as elastic because they came too soon after another
-    double largest_overlap = 0;  //!< over the radius of the smaller partner, whenever a pair was looked at
-    double dissipated = 0;       //!< J lost in collisions
-    Vec3 wall_impulse;           //!< of all walls on the granules, N s
-    Vec3 wall_force;             //!< their mean over the last step, N
-    long collapses = 0;          //!< how often events came so fast that time-driven steps took over
-    double time_driven = 0;      //!< s of process in time-driven steps
+    long kept_elastic = 0;        //!< collisions taken as elastic because they came too soon after another
+    double largest_overlap = 0;   //!< over the radius of the smaller partner, whenever a pair was looked at
+    double dissipated = 0;        //!< J lost in collisions
+    Vec3 wall_impulse;            //!< of all walls on the granules, N s
+    Vec3 wall_force;              //!< their mean over the last step, N
+    std::vector<HardLoad> loads;  //!< on each body; empty where none was hit
+    long collapses = 0;           //!< how often events came so fast that time-driven steps took over
+    double time_driven = 0;       //!< s of process in time-driven steps
     long time_driven_steps = 0;
     long held_back = 0;  //!< displacements cut in time-driven steps to keep spheres apart
 };
@@ -56,6 +64,16 @@ struct HardWorld
     double reduced_mass(std::size_t i, std::size_t j) const
     {
         return state.mass[i] * state.mass[j] / (state.mass[i] + state.mass[j]);
+    }
+    //! A wall in direction n gives `impulse` to sphere i.
+    void push_off(std::size_t i, std::size_t wall, Vec3 const& n, Vec3 const& impulse)
+    {
+        push(i, n, impulse);
+        watch.wall_impulse += impulse;
+        std::size_t const body = walls.body(wall);
+        if (watch.loads.size() <= body) watch.loads.resize(body + 1);
+        watch.loads[body].impulse -= impulse;
+        watch.loads[body].turn -= cross(state.body[i].x + state.body[i].radius * n, impulse);
     }
     //! Gives `impulse` to sphere i at the point of its surface in direction n.
     void push(std::size_t i, Vec3 const& n, Vec3 const& impulse)

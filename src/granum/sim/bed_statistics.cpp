@@ -47,7 +47,7 @@ std::size_t class_of(double share)
 }
 }
 
-BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engine, par::Communicator const& comm)
+BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par::Communicator const& comm)
 {
     std::array<double, Sum::count> sums{};
     std::vector<double> histogram(classes);
@@ -57,7 +57,7 @@ BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engin
     row_of.reserve(granules.rows());
     for (std::uint32_t row = 0; row < granules.rows(); ++row) row_of.try_emplace(granules.id[row], row);
     std::vector<std::uint8_t> touching(granules.owned);
-    auto contacts = engine.contacts();
+    auto contacts = mover.contacts();
     // A pair that touches across a periodic face may be seen from both of its sides.
     auto const key = [](dem::Contact const& contact) { return std::tuple(contact.wall, contact.low, contact.high); };
     std::sort(contacts.begin(), contacts.end(), [&](auto const& a, auto const& b) { return key(a) < key(b); });
@@ -87,7 +87,7 @@ BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engin
         histogram[class_of(share)] += 1;
         largest = std::max(largest, share);
     }
-    math::Vec3 const gravity = engine.settings().gravity;
+    math::Vec3 const gravity = mover.settings().gravity;
     for (std::size_t const row :
          particle::rows_by_identity(granules)) {  // so that sums do not know the order in memory
         double const mass = granules.mass[row], radius = granules.radius[row];
@@ -97,7 +97,7 @@ BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engin
         sums[neighbours + touching[row]] += 1;
     }
     sums[rows] = static_cast<double>(granules.owned);
-    auto const& watch = engine.watch();
+    auto const& watch = mover.watch();
     sums[elastic] = watch.elastic;
     sums[dissipated] = watch.dissipated;
     comm.sum(sums);
@@ -120,12 +120,15 @@ BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engin
             out.overlap_p99 = finest * std::exp(width * (static_cast<double>(k) + 0.5));
         }
     }
-    out.overlap_largest = comm.max(largest);
+    // Hard spheres touch for no time: what there was is the deepest that rounding let two lie in each other.
+    auto const* hard = mover.hard_watch();
+    out.overlap_largest = hard ? hard->largest_overlap : comm.max(largest);
+    out.collisions = hard ? hard->collisions : 0;
     out.overlap_p99 = std::min(out.overlap_p99, out.overlap_largest);
     out.translation = sums[translation], out.rotation = sums[rotation];
     out.potential = sums[potential], out.elastic = ten_digits(sums[elastic]),
     out.dissipated = ten_digits(sums[dissipated]);
-    for (auto const& load : engine.wall_loads()) out.wall_force += load.force;
+    for (auto const& load : mover.wall_loads()) out.wall_force += load.force;
     return out;
 }
 }

@@ -1,9 +1,9 @@
 // The bed as a packing: who touches whom, how deeply, and where its energy is.
 #pragma once
 
-#include "granum/dem/engine.hpp"
 #include "granum/par/communicator.hpp"
 #include "granum/particle/store.hpp"
+#include "granum/sim/mover.hpp"
 
 #include <array>
 
@@ -27,10 +27,11 @@ struct BedStatistics
     double elastic = 0;                    //!< stored in contacts, J
     double dissipated = 0;                 //!< lost in contacts since the engine began, J
     math::Vec3 wall_force;                 //!< of all granules on all walls, N
+    long collisions = 0;                   //!< of pairs of hard spheres since the start
 
     double energy() const { return translation + rotation + potential + elastic; }
 };
 
 //! Collective. The percentile is that of a histogram with classes 1 % wide.
-BedStatistics bed_statistics(particle::Store const& granules, dem::Engine& engine, par::Communicator const& comm);
+BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par::Communicator const& comm);
 }

@@ -80,7 +80,7 @@ double collision_speed(Case const& data)
 double linear_stiffness(Case const& data, ContactPair const& pair, double share)
 {
     auto const& contact = data.contact;
-    if (!contact.contact_time) return pair.stiffness;
+    if (!contact.contact_time || contact.hard()) return pair.stiffness;
     auto const attraction = contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
     double const zeta = law::contact::damping_ratio(pair.restitution, attraction);
     double const rate = law::contact::contact_phase(zeta, attraction) / *contact.contact_time;
@@ -142,6 +142,13 @@ dem::Settings granule_settings(Case const& data)
     settings.gravity = data.gravity;
     settings.frozen = data.granules.frozen;
     return settings;
+}
+
+dem::HardOptions hard_options(Case const& data)
+{
+    dem::HardOptions options{.tangential_restitution = data.contact.tangential_restitution};
+    options.contact_time = data.contact.contact_time.value_or(options.contact_time);
+    return options;
 }
 
 particle::Groups column_groups(Case const& data)
@@ -332,6 +339,7 @@ double granule_step(Case const& data)
 {
     if (data.time.granule_step) return *data.time.granule_step;
     double least = data.time.duration;
+    if (data.contact.hard()) return 1e-3 * least;  // the first; the others follow from the collisions
     for (auto const& bound : granule_step_bounds(data, collision_speed(data))) least = std::min(least, bound.seconds);
     return least;
 }

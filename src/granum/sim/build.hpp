@@ -3,6 +3,7 @@
 
 #include "granum/coupling/exchange.hpp"
 #include "granum/dem/engine.hpp"
+#include "granum/dem/hard_spheres.hpp"
 #include "granum/dem/step_bounds.hpp"
 #include "granum/drying/drying.hpp"
 #include "granum/gas/flow.hpp"
@@ -16,6 +17,9 @@ namespace granum::sim
 {
 //! Contact laws, walls and gravity. Material 0 is the granule, 1 the wall.
 dem::Settings granule_settings(Case const& data);
+
+//! How hard spheres bounce, besides what the settings say.
+dem::HardOptions hard_options(Case const& data);
 
 //! The columns that granules of this case need besides those of motion and contacts.
 particle::Groups column_groups(Case const& data);

@@ -41,14 +41,20 @@ struct ContactCase
 {
     std::vector<MaterialCase> materials{{.name = "granule"}, {.name = "wall"}};
     std::vector<std::vector<ContactPair>> pairs{{{}}, {{}, {}}};  //!< [a][b], b up to a: how two materials meet
+    std::string engine = "soft";                                  //!< or "hard": contacts are instants
     std::string normal = "hertz-tsuji";                           //!< law names
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
-    std::optional<double> contact_time;  //!< of `linear`, in place of stiffnesses: of two of the smallest granules, s
-    double tangential_ratio = 2.0 / 7;   //!< of `linear`: tangential over normal stiffness
-    double reference_speed = 1;          //!< of `hertz-viscoelastic`: where the restitution is that given, m/s
-    bool lever_radius = false;           //!< lever arm R instead of R - overlap/2
-    bool keep_attraction = false;        //!< keep the tensile end of a damped contact (Tsuji's own damping)
+    //! s; of `linear`, in place of stiffnesses: of two of the smallest granules; of hard spheres: a collision sooner
+    //! than this after another of the same granule is elastic.
+    std::optional<double> contact_time;
+    double tangential_restitution = 0.33;  //!< of hard spheres: of the slip where surfaces stick
+    double tangential_ratio = 2.0 / 7;     //!< of `linear`: tangential over normal stiffness
+    double reference_speed = 1;            //!< of `hertz-viscoelastic`: where the restitution is that given, m/s
+    bool lever_radius = false;             //!< lever arm R instead of R - overlap/2
+    bool keep_attraction = false;          //!< keep the tensile end of a damped contact (Tsuji's own damping)
+
+    bool hard() const { return engine == "hard"; }
 };
 
 //! One granule with its place: from [[granule]] tables, a CSV file or another run.
@@ -91,6 +97,7 @@ struct GranulesCase
     std::string start = "settled";  //!< "settled" (random packing that fell under gravity), "loose", "lattice", "given"
     double spacing = 1.1;           //!< of a lattice, diameters
     double noise = 0;               //!< of a lattice, share of the free way
+    double agitation = 0;  //!< root mean square of each velocity component of granules placed by the program, m/s
     std::optional<RegionCase> region;
     std::vector<BatchCase> batches;  //!< empty where granules are given one by one
     std::vector<GranuleCase> given;

@@ -184,13 +184,14 @@ void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vec
     if (chamber) {
         if (granules_known(file, data)) {
             check_bed(file, data);
-            check_overlaps(file, data, warnings);
+            if (!data.contact.hard()) check_overlaps(file, data, warnings);
             if (!file.wrong("granules.mass")) check_resolution(file, data);
-            check_steps(file, data);
+            if (!data.contact.hard()) check_steps(file, data);
         }
         check_nozzles(file, data);
     }
     if (data.gas.inlet.velocity <= 0 || chamber) check_drying(file, data);
+    if (chamber) check_hard_spheres(file, data);
     if (file.any_mistake()) return;
     auto const coming = forecast(data, 1);
     warnings.insert(warnings.end(), coming.warnings.begin(), coming.warnings.end());

@@ -34,9 +34,15 @@ bool belongs_to(io::CaseFile& file, std::string const& key, char const* slot, st
     return false;
 }
 
+//! True where granules are soft; of hard ones the key is a mistake.
+bool for_soft(io::CaseFile& file, ContactCase const& contact, std::string const& key)
+{
+    return belongs_to(file, key, "contact.engine", contact.engine, "soft");
+}
+
 bool for_linear(io::CaseFile& file, ContactCase const& contact, std::string const& key)
 {
-    return belongs_to(file, key, "contact.normal", contact.normal, "linear");
+    return for_soft(file, contact, key) && belongs_to(file, key, "contact.normal", contact.normal, "linear");
 }
 
 //! How two materials meet, from the keys with this beginning.
@@ -46,11 +52,14 @@ ContactPair read_pair(io::CaseFile& file, ContactCase const& contact, std::strin
     ContactPair pair = fallback;
     pair.restitution = number(file, prefix + "restitution", fallback.restitution, doc, io::zero_to_one);
     pair.sliding_friction = number(file, prefix + "sliding_friction", fallback.sliding_friction, doc, io::not_negative);
-    pair.rolling_friction = number(file, prefix + "rolling_friction", fallback.rolling_friction, doc, io::not_negative);
-    if (belongs_to(file, prefix + "rolling_damping", "contact.rolling", contact.rolling, "epsd-dashpot"))
+    if (for_soft(file, contact, prefix + "rolling_friction"))
+        pair.rolling_friction =
+            number(file, prefix + "rolling_friction", fallback.rolling_friction, doc, io::not_negative);
+    if (for_soft(file, contact, prefix + "rolling_damping") &&
+        belongs_to(file, prefix + "rolling_damping", "contact.rolling", contact.rolling, "epsd-dashpot"))
         pair.rolling_damping =
             number(file, prefix + "rolling_damping", fallback.rolling_damping, doc, {.low = 0, .high = 10});
-    if (contact.contact_time && file.has(prefix + "stiffness"))
+    if (contact.contact_time && !contact.hard() && file.has(prefix + "stiffness"))
         file.mistake(prefix + "stiffness", "does not go with contact.contact_time, which sets the stiffness",
                      {"leave one of the two out"});
     if (for_linear(file, contact, prefix + "stiffness"))
@@ -62,6 +71,25 @@ ContactPair read_pair(io::CaseFile& file, ContactCase const& contact, std::strin
 //! The laws and the numbers that only some of them read.
 void read_laws(io::CaseFile& file, ContactCase& contact)
 {
+    contact.engine =
+        file.name("contact.engine", contact.engine, "soft: contacts last and overlap; hard: they are instants",
+                  {"soft", "hard"}, "an engine");
+    if (contact.hard())
+        contact.tangential_restitution =
+            file.quantity("contact.tangential_restitution", Dimension::one, contact.tangential_restitution,
+                          "of the slip where surfaces stick", io::zero_to_one);
+    else
+        belongs_to(file, "contact.tangential_restitution", "contact.engine", contact.engine, "hard");
+    for (auto const* key :
+         {"contact.normal", "contact.tangential", "contact.rolling", "contact.lever_radius", "contact.keep_attraction",
+          "contact.reference_speed", "contact.tangential_ratio", "contact.rigid_wall"})
+        for_soft(file, contact, key);
+    if (contact.hard()) {
+        contact.contact_time =
+            file.quantity("contact.contact_time", Dimension::time, 1e-6,
+                          "a collision sooner than this after another of a granule is elastic", io::positive);
+        return;
+    }
     contact.normal =
         file.name("contact.normal", contact.normal, "law", laws_for("contact.normal"), "a normal contact law");
     contact.tangential = file.name("contact.tangential", contact.tangential, "law", laws_for("contact.tangential"),
@@ -134,12 +162,17 @@ void read_contact(io::CaseFile& file, Case& data)
     if (!own_material) take_material(file, "granules.material", {"granules", "contact"});
     read_laws(file, contact);
     MaterialCase granule{.name = "granule"}, wall{.name = "wall"};
-    granule.youngs_modulus =
-        modulus(file, "contact.youngs_modulus", granule.youngs_modulus, "of the granules, usually softened");
-    granule.poisson_ratio = number(file, "contact.poisson_ratio", granule.poisson_ratio, "of the granules", poisson);
-    wall.rigid = file.boolean("contact.rigid_wall", false, "walls do not yield");
-    wall.youngs_modulus = modulus(file, "contact.wall_youngs_modulus", granule.youngs_modulus, "of the walls");
-    wall.poisson_ratio = number(file, "contact.wall_poisson_ratio", granule.poisson_ratio, "of the walls", poisson);
+    for (auto const* key : {"youngs_modulus", "poisson_ratio", "wall_youngs_modulus", "wall_poisson_ratio"})
+        for_soft(file, contact, std::string("contact.") + key);
+    if (!contact.hard()) {
+        granule.youngs_modulus =
+            modulus(file, "contact.youngs_modulus", granule.youngs_modulus, "of the granules, usually softened");
+        granule.poisson_ratio =
+            number(file, "contact.poisson_ratio", granule.poisson_ratio, "of the granules", poisson);
+        wall.rigid = file.boolean("contact.rigid_wall", false, "walls do not yield");
+        wall.youngs_modulus = modulus(file, "contact.wall_youngs_modulus", granule.youngs_modulus, "of the walls");
+        wall.poisson_ratio = number(file, "contact.wall_poisson_ratio", granule.poisson_ratio, "of the walls", poisson);
+    }
     contact.materials = {granule, wall};
     for (auto const& name : own_names) {
         auto const key = "material." + name + ".";

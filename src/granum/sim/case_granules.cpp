@@ -256,8 +256,12 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
     read_tables(file, data);
     bool const given = !granules.given.empty() || file.has("granules.file") || file.has("granule") || run;
 
-    granules.start = file.name("granules.start", given ? "given" : "settled", "how the granules lie at the start",
-                               {"settled", "loose", "lattice", "poured", "given"}, "a start");
+    granules.start =
+        file.name("granules.start",
+                  given                 ? "given"
+                  : data.contact.hard() ? "loose"
+                                        : "settled",
+                  "how the granules lie at the start", {"settled", "loose", "lattice", "poured", "given"}, "a start");
     if (granules.start == "lattice") {
         granules.spacing = file.quantity("granules.spacing", Dimension::one, granules.spacing,
                                          "of the lattice, in diameters", {.low = 1});
@@ -265,6 +269,12 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
                                        io::zero_to_one);
     }
     file.know("granules.spacing"), file.know("granules.noise");
+    granules.agitation =
+        file.quantity("granules.agitation", Dimension::velocity, 0,
+                      "root mean square of each component of random velocities at the start", io::not_negative);
+    if (granules.agitation > 0 && granules.start != "loose" && granules.start != "lattice")
+        file.mistake("granules.agitation", "goes with start = \"loose\" or \"lattice\"",
+                     {"other starts have their own velocities, or none"});
     if (data.granules.region && granules.start == "lattice")
         file.mistake("granules.region", "does not go with start = \"lattice\"");
     for (auto const* key : {"granules.spacing", "granules.noise"})

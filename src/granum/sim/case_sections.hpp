@@ -18,6 +18,8 @@ void read_cells(io::CaseFile& file, Case& data);  //!< after the apparatus and t
 void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
 void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [drying] [product] [start] [time] [output]
 
+void check_hard_spheres(io::CaseFile& file, Case const& data);  //!< after all others
+
 //! What no single value shows: the mistakes and warnings that follow from values together.
 void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vector<std::string>& warnings);
 

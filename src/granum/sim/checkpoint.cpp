@@ -62,6 +62,7 @@ struct Simulation::Saved
     bool same_ranks = false;
     particle::Store granules;
     std::vector<io::Section> contacts;
+    io::Sections hard;              //!< of hard spheres
     std::vector<double> wall_time;  //!< one number, s
     std::vector<geometry::ServoState> servos;
     std::vector<std::uint64_t> deposit_owners;
@@ -86,7 +87,8 @@ void Simulation::each_common_number(Visit&& visit)
     visit(traffic_.fed_energy), visit(traffic_.left_energy);
     visit(next_feed_), visit(feed_rounds_);
     for (auto& feed : feeds_) visit(feed.placed), visit(feed.mass);
-    auto& watch = engine_->watch();
+    if (hard_) visit(granule_dt_);
+    auto& watch = mover_->watch();
     visit(watch.largest_overlap), visit(watch.warned_overlaps), visit(watch.rebuilds);
 }
 
@@ -99,7 +101,7 @@ void Simulation::each_share(Visit&& visit)
     visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
     visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);
     visit(last_.enthalpy_in), visit(last_.enthalpy_out);
-    auto& watch = engine_->watch();
+    auto& watch = mover_->watch();
     visit(watch.dissipated);
 }
 
@@ -116,9 +118,13 @@ io::Sections Simulation::save()
         auto const bytes = std::as_bytes(std::span(column.values).first(granules_.owned));
         out.push_back({"granules." + std::string(column.traits.name), {bytes.begin(), bytes.end()}});
     });
-    out.push_back(io::section_of("contacts", engine_->save_contacts()));
-    out.push_back(io::section_of("walls.time", std::vector<double>{engine_->time()}));
-    out.push_back(io::section_of("walls.servos", engine_->servos()));
+    if (hard_) {
+        for (auto& section : hard_->save()) out.push_back(std::move(section));
+    } else {
+        out.push_back(io::section_of("contacts", engine_->save_contacts()));
+        out.push_back(io::section_of("walls.time", std::vector<double>{engine_->time()}));
+        out.push_back(io::section_of("walls.servos", engine_->servos()));
+    }
     if (case_.spray.present) {
         std::vector<std::uint64_t> owners;
         std::vector<drying::Deposit> deposits;
@@ -178,10 +184,14 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
                                                 values.size(), position.size()));
             for (std::size_t k = 0; k < rows.size(); ++k) column.values[first + k] = values[rows[k]];
         });
-        out.contacts.push_back(find("contacts"));
-
-        out.wall_time = io::values_of<double>(find("walls.time"));
-        out.servos = io::values_of<geometry::ServoState>(find("walls.servos"));
+        if (hard_) {
+            for (auto const* name : {"hard.last", "hard.numbers", "hard.loads", "hard.earlier"})
+                out.hard.push_back(find(name));
+        } else {
+            out.contacts.push_back(find("contacts"));
+            out.wall_time = io::values_of<double>(find("walls.time"));
+            out.servos = io::values_of<geometry::ServoState>(find("walls.servos"));
+        }
         auto const shares = io::values_of<double>(find("shares"));
         // The same on every rank, but for the largest of something that each has seen.
         auto const common = io::values_of<double>(find("common"));
@@ -229,6 +239,10 @@ void Simulation::take_contacts(Saved const& saved)
             auto const id = saved.deposit_owners[k];
             if (std::binary_search(here.begin(), here.end(), id)) deposits_->on(id).push_back(saved.deposits[k]);
         }
+    }
+    if (hard_) {
+        hard_->resume(granules_, saved.hard);
+        return;
     }
     engine_->set_clock(saved.wall_time.at(0), saved.servos);
     engine_->resume(granules_, contacts_of(granules_, saved.contacts));

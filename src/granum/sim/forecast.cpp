@@ -172,12 +172,14 @@ Forecast forecast(Case const& data, int ranks)
         double const radius = parcel_radius(data);
         out.parcel_diameter = 2 * radius;
         out.contact_speed = expected_contact_speed(data);
-        out.overlap_speed = std::max({0.5, 0.5 * out.plate_velocity, fastest_meeting(data)});
-        out.overlap = largest_overlap(data, radius, out.overlap_speed) / radius;
-        out.bounds = granule_step_bounds(data, out.contact_speed);
-        double least = out.bounds.front().seconds;
-        for (auto const& bound : out.bounds) least = std::min(least, bound.seconds);
-        out.granule_step = data.time.granule_step.value_or(least);
+        if (!data.contact.hard()) {  // hard spheres have no step and no overlap
+            out.overlap_speed = std::max({0.5, 0.5 * out.plate_velocity, fastest_meeting(data)});
+            out.overlap = largest_overlap(data, radius, out.overlap_speed) / radius;
+            out.bounds = granule_step_bounds(data, out.contact_speed);
+            double least = out.bounds.front().seconds;
+            for (auto const& bound : out.bounds) least = std::min(least, bound.seconds);
+            out.granule_step = data.time.granule_step.value_or(least);
+        }
         if (granules.mass > 0) out.bed_height = settled_height(data).value_or(0);
     }
     if (data.gas.present) {

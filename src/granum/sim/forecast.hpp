@@ -25,7 +25,7 @@ struct Forecast
     double overlap_speed = 0;         //!< m/s assumed for the overlap: what granules of a bed rarely exceed
     double overlap = 0;               //!< over the radius, at that speed
     std::vector<dem::StepBound> bounds;
-    double granule_step = 0;  //!< s, of the case or the smallest bound
+    double granule_step = 0;  //!< s, of the case or the smallest bound; 0 for hard spheres
     double gas_step = 0;      //!< s, of the case or from the Courant number 0.5 of jet and bed
     long cells = 0;
     math::Vec3 cell_size;         //!< m

@@ -85,6 +85,21 @@ void arrange(Case const& data, std::vector<GranuleCase>& list)
     }
     for (std::size_t k = 0; k < list.size(); ++k) list[k].position = places[k];
 }
+
+//! Gives them random velocities (a Maxwell distribution) without a common motion.
+void agitate(double speed, std::uint32_t seed, std::vector<GranuleCase>& list)
+{
+    Vec3 momentum;
+    double mass = 0;
+    for (auto& one : list) {
+        base::Random random(seed, base::Purpose::agitation, one.id, 0);
+        one.velocity = speed * Vec3{random.normal(), random.normal(), random.normal()};
+        double const own = one.count * one.density * cube(one.diameter);
+        momentum += own * one.velocity;
+        mass += own;
+    }
+    for (auto& one : list) one.velocity -= (1 / mass) * momentum;
+}
 }
 
 void add_granule(particle::Store& granules, GranuleCase const& one)
@@ -148,6 +163,7 @@ void Simulation::place_granules()
             poured_ = std::move(list), list.clear();
         else if (!list.empty())
             arrange(case_, list);
+        if (batch.agitation > 0 && !list.empty()) agitate(batch.agitation, case_.seed, list);
     } else {
         batch.parcels = static_cast<long>(list.size());
     }

@@ -128,7 +128,7 @@ void write_failed_state(std::string const& folder, Simulation& simulation, io::C
 
 std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::string> warnings)
 {
-    auto& watch = simulation.engine().watch();
+    auto& watch = simulation.mover().watch();
     double const overlap = simulation.comm().max(watch.largest_overlap);
     long const steps = simulation.comm().max(watch.warned_overlaps);
     if (steps > 0)
@@ -224,7 +224,7 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         for (std::size_t s = 0; s < performance.seconds.size(); ++s) {
             auto const stage = static_cast<base::Stage>(s);
             performance.seconds[s] =
-                simulation.stopwatch().seconds(stage) + simulation.engine().stopwatch().seconds(stage);
+                simulation.stopwatch().seconds(stage) + simulation.mover().stopwatch().seconds(stage);
         }
         comm.sum(performance.seconds);
         performance.granule_steps = simulation.granule_steps();

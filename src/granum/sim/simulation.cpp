@@ -26,7 +26,15 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
                   number[0]);
     slabs_ = par::Slabs::balanced(chamber.lower().x, (chamber.upper().x - chamber.lower().x) / number[0],
                                   case_.periodic[0], grid::column_weights(chamber, number), comm.size());
-    engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
+    if (case_.contact.hard()) {
+        base::require(comm.size() == 1, "hard spheres run on one rank; there are {}", comm.size());
+        auto hard = std::make_unique<HardMover>(granule_settings(case_), hard_options(case_));
+        hard_ = hard.get();
+        mover_ = std::move(hard);
+    } else {
+        engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
+        mover_ = std::make_unique<SoftMover>(engine_);
+    }
     granule_dt_ = granule_step(case_);
 
     auto const state = saved ? read(*saved) : nullptr;
@@ -41,9 +49,9 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     if (saved) {
         take_contacts(*state);
     } else {
-        engine_->prepare(granules_);
+        mover_->prepare(granules_);
         if (case_.granules.start == "settled" || case_.granules.start == "poured") settle_between_still_walls();
-        auto& watch = engine_->watch();  // from here on it watches the run
+        auto& watch = mover_->watch();  // from here on it watches the run
         watch.largest_overlap = watch.dissipated = 0;
         watch.warned_overlaps = 0;
     }
@@ -101,14 +109,15 @@ void Simulation::step(double longest)
         wanted = std::min(wanted, case_.time.gas_step ? *case_.time.gas_step
                                                       : std::min(solver_->courant_step(gas_, 1.0), 50 * granule_dt_));
     } else {
-        wanted = std::min(wanted, 20 * granule_dt_);
+        wanted = std::min(wanted, (hard_ ? 1 : 20) * granule_dt_);
     }
     // Equal steps up to the next goal, equal granule steps within each: goals are met exactly.
     double const dt = longest < 1e300 ? longest / std::ceil(longest / wanted * (1 - 1e-9)) : wanted;
     int const substeps = std::max(1, static_cast<int>(std::ceil(dt / granule_dt_ * (1 - 1e-9))));
 
     if (has_gas()) gas_step(dt);
-    engine_->advance(granules_, dt / substeps, substeps);
+    mover_->advance(granules_, dt / substeps, substeps);
+    if (hard_) granule_dt_ = hard_->next_step(granules_, dt, granule_dt_);
 
     granule_steps_ += substeps * comm_.sum(static_cast<long>(granules_.owned));
     time_ += dt;

@@ -13,6 +13,7 @@
 #include "granum/material/wet_bulb_table.hpp"
 #include "granum/sim/balance.hpp"
 #include "granum/sim/case.hpp"
+#include "granum/sim/hard_mover.hpp"
 #include "granum/sim/ledger.hpp"
 #include "granum/sim/surroundings.hpp"
 #include "granum/sim/traffic.hpp"
@@ -69,7 +70,8 @@ class Simulation
     Case const& data() const { return case_; }
     par::Communicator const& comm() const { return comm_; }
     particle::Store& granules() { return granules_; }
-    dem::Engine& engine() { return *engine_; }
+    dem::Engine& engine() { return *engine_; }  //!< of soft spheres
+    Mover& mover() { return *mover_; }          //!< soft or hard
     bool has_gas() const { return solver_ != nullptr; }
     grid::Grid const& grid() const { return grid_; }
     gas::State const& gas() const { return gas_; }
@@ -129,7 +131,9 @@ class Simulation
     par::Slabs slabs_;
     grid::Grid grid_;
     particle::Store granules_;
-    std::unique_ptr<dem::Engine> engine_;
+    std::unique_ptr<dem::Engine> engine_;  //!< none where granules are hard
+    std::unique_ptr<Mover> mover_;
+    HardMover* hard_ = nullptr;  //!< `mover_` where granules are hard
     std::unique_ptr<gas::Solver> solver_;
     gas::State gas_;
     gas::Sources sources_;

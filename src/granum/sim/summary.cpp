@@ -81,7 +81,7 @@ json product_part(Simulation const& simulation, Output const& output)
 }
 }
 
-std::string summary(Simulation const& simulation, Output const& output, Performance const& performance,
+std::string summary(Simulation& simulation, Output const& output, Performance const& performance,
                     std::vector<std::string> const& warnings, std::string const& ended)
 {
     auto const& data = simulation.data();
@@ -107,6 +107,13 @@ std::string summary(Simulation const& simulation, Output const& output, Performa
                        {"mass_kg", data.granules.mass},
                        {"parcel_ratio", data.granules.parcel_ratio}};
     out["packing"] = packing_part(last.bed);
+    if (auto const* hard = simulation.mover().hard_watch())
+        out["collisions"] = {{"pairs", hard->collisions},
+                             {"walls", hard->wall_collisions},
+                             {"kept_elastic", hard->kept_elastic},
+                             {"time_driven_s", hard->time_driven},
+                             {"time_driven_steps", hard->time_driven_steps},
+                             {"held_back", hard->held_back}};
     bool const still =
         std::all_of(data.walls.begin(), data.walls.end(), [](auto const& w) { return w.motions.empty(); });
     out["mechanics"] = {{"kinetic_J", last.bed.translation},
@@ -200,10 +207,19 @@ std::string closing_words(std::string const& summary_json)
     }
     if (!s.contains("gas") && s.contains("packing")) {
         auto const& overlap = s["packing"]["overlap"];
-        out += fmt::format(
-            "packing           coordination {:.2f}; overlaps mean {:.2g} %, 99 % below {:.2g} %, largest {:.2g} %\n",
-            s["packing"]["coordination_number"].get<double>(), 100 * overlap["mean"].get<double>(),
-            100 * overlap["p99"].get<double>(), 100 * overlap["largest"].get<double>());
+        if (s.contains("collisions")) {
+            auto const& met = s["collisions"];
+            out += fmt::format("collisions        {} of granules, {} with walls; largest overlap {:.1e} of a radius",
+                               met["pairs"].get<long>(), met["walls"].get<long>(), overlap["largest"].get<double>());
+            if (met["time_driven_s"].get<double>() > 0)
+                out += fmt::format("; {:.3g} s in time-driven steps", met["time_driven_s"].get<double>());
+            out += "\n";
+        } else
+            out += fmt::format(
+                "packing           coordination {:.2f}; overlaps mean {:.2g} %, 99 % below {:.2g} %, largest {:.2g} "
+                "%\n",
+                s["packing"]["coordination_number"].get<double>(), 100 * overlap["mean"].get<double>(),
+                100 * overlap["p99"].get<double>(), 100 * overlap["largest"].get<double>());
         auto const& energy = s["mechanics"];
         out += fmt::format("energy            moving {:.3g} J, dissipated {:.3g} J",
                            energy["kinetic_J"].get<double>() + energy["rotation_J"].get<double>(),

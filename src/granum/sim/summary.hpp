@@ -17,7 +17,7 @@ struct Performance
 };
 
 //! The summary as JSON text; call on rank 0 after the last `Output` calls with the collective numbers at hand.
-std::string summary(Simulation const& simulation, Output const& output, Performance const& performance,
+std::string summary(Simulation& simulation, Output const& output, Performance const& performance,
                     std::vector<std::string> const& warnings, std::string const& ended);
 
 //! The same in a few lines for people: property, eta, ledgers.

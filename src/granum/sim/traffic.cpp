@@ -110,7 +110,7 @@ void Simulation::feed_all(double now)
         changed = feed(one, now) || changed;
         if (!one.done() && now < one.how.stop) next_feed_ = std::min(next_feed_, now + one.how.interval);
     }
-    if (changed) engine_->prepare(granules_);  // the same on every rank
+    if (changed) mover_->prepare(granules_);  // the same on every rank
 }
 
 void Simulation::let_out()
@@ -156,6 +156,6 @@ void Simulation::let_out()
     traffic_.left += std::lround(gone[0]);
     traffic_.left_mass += gone[1], traffic_.left_energy += gone[2];
     particle::reorder(granules_, stay);
-    engine_->prepare(granules_);
+    mover_->prepare(granules_);
 }
 }

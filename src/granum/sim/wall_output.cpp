@@ -68,7 +68,7 @@ WallOutput::WallOutput(std::string folder, Simulation& simulation)
     moving_ = std::any_of(own.begin(), own.end(), [](auto const& body) { return !body.motions.empty(); });
     if (!simulation_.comm().root()) return;
     std::vector<io::SeriesColumn> columns{{"time", "s"}};
-    for (auto const& body : simulation_.engine().settings().walls)
+    for (auto const& body : simulation_.mover().settings().walls)
         for (auto const* what : {"force", "torque"})
             for (char const axis : {'x', 'y', 'z'})
                 columns.push_back({fmt::format("{}_{}_{}", body.name, what, axis), what[0] == 'f' ? "N" : "N m"});
@@ -78,7 +78,7 @@ WallOutput::WallOutput(std::string folder, Simulation& simulation)
 
 void WallOutput::sample()
 {
-    auto const loads = simulation_.engine().wall_loads();
+    auto const loads = simulation_.mover().wall_loads();
     if (!loads_) return;
     std::vector<double> row{simulation_.time()};
     for (auto const& [force, torque] : loads)
@@ -107,11 +107,11 @@ void WallOutput::picture(int number)
 {
     auto const& own = simulation_.data().walls;
     if (!loads_ || own.empty() || (number > 0 && !moving_)) return;
-    auto const& engine = simulation_.engine();
-    std::size_t const first = engine.settings().walls.size() - own.size();  // those of the chamber come before
+    auto const& mover = simulation_.mover();
+    std::size_t const first = mover.settings().walls.size() - own.size();  // those of the chamber come before
     io::Surface all;
     for (std::size_t k = 0; k < own.size(); ++k) {
-        auto const one = body_surface(own[k], engine.pose(first + k));
+        auto const one = body_surface(own[k], mover.pose(first + k));
         int const shift = static_cast<int>(all.corners.size());
         all.corners.insert(all.corners.end(), one.corners.begin(), one.corners.end());
         for (auto face : one.faces) {
