@@ -120,7 +120,7 @@ void HardPacked::exchange_impulses(double step)
         fastest = std::max(fastest, norm2(state.body[i].v));
     }
     double const gained = std::sqrt(strongest) * step, done = 1e-3 * gained + 1e-9 * std::sqrt(fastest);
-    for (int round = 0; round < 50; ++round) {
+    for (int round = 0; round < 200; ++round) {
         bool again = false;
         for (std::size_t k = 0; k < contacts_.size(); ++k) {
             auto& contact = contacts_[round % 2 == 0 ? k : contacts_.size() - 1 - k];

@@ -10,7 +10,7 @@ namespace granum::sim
 {
 namespace
 {
-std::string const soft_hint = "contact.engine = \"soft\" knows it";
+std::string const soft_hint = "or choose contact.engine = \"soft\"";
 
 //! Where the granules of a case are stated.
 std::string granules_key(io::CaseFile const& file)
@@ -45,7 +45,7 @@ void check_hard_spheres(io::CaseFile& file, Case const& data)
     if (!data.contact.hard()) return;
     if (data.gas.present || file.has("gas"))
         file.mistake("gas", "does not go with contact.engine = \"hard\", which moves granules alone",
-                     {"leave out [gas], or choose contact.engine = \"soft\""});
+                     {"leave out [gas]", soft_hint});
     if (file.has("feed"))
         file.mistake("feed", "does not go with contact.engine = \"hard\": all granules are there from the start",
                      {"leave it out", soft_hint});

@@ -230,4 +230,51 @@ TEST(HardPile, of_one_ball_at_rest_weighs_what_the_ball_weighs)
     EXPECT_NEAR(scene.watch().wall_force.z / (9.81 * scene.granules.mass[0]), 1, 0.02);
     EXPECT_LE(scene.watch().largest_overlap, 1e-9);
 }
+
+// What the columns and the memory do not hold must not matter: a second engine takes over in flight and in a packing.
+TEST(HardPile, goes_on_in_another_engine_with_the_same_bits)
+{
+    for (double const until : {0.01, 0.15}) {
+        HardScene scene({.restitution = 0.6, .sliding_friction = 0.3});
+        scene.settings.gravity = {0, 0, -9.81};
+        scene.enclose({}, {0.01, 0.01, 0.05});
+        for (int k = 0; k < 48; ++k)
+            scene.add({1.2e-3 + 2.4e-3 * (k % 4), 1.2e-3 + 2.4e-3 * (k / 4 % 4), 1.2e-3 + 2.4e-3 * (k / 16)},
+                      {0.1 * std::sin(k), 0.1 * std::cos(k), 0}, 1e-3, 1000);
+        scene.prepare_hard();
+        scene.run_hard(until, 10);
+        if (until > 0.1) EXPECT_GT(scene.hard->memory().packed_steps, 0) << "time-driven steps are to be under way";
+        auto copy = scene.granules;
+        dem::HardSpheres other(scene.settings, scene.options);
+        other.resume(copy, scene.hard->memory());
+        long const before = scene.watch().collisions + scene.watch().time_driven_steps;
+        for (int k = 0; k < 20; ++k) {
+            scene.run_hard(0.002);
+            other.step(copy, 0.002);
+        }
+        EXPECT_GT(scene.watch().collisions + scene.watch().time_driven_steps, before + 100);
+        for (std::size_t k = 0; k < copy.owned; ++k) {
+            EXPECT_EQ(copy.position[k], scene.granules.position[k]) << k;
+            EXPECT_EQ(copy.velocity[k], scene.granules.velocity[k]) << k;
+            EXPECT_EQ(copy.spin[k], scene.granules.spin[k]) << k;
+        }
+    }
+}
+
+// A ball that flies to and fro between two plates: each takes twice its momentum at every visit.
+TEST(HardGas, tells_what_it_gives_to_each_wall)
+{
+    HardScene scene({.restitution = 1, .sliding_friction = 0});
+    scene.add_plane({0, 0, 0}, {1, 0, 0});
+    scene.add_plane({0.01, 0, 0}, {-1, 0, 0});
+    scene.add({0.005, 0.002, 0}, {1, 0, 0}, 0.001, 1000);
+    scene.prepare_hard();
+    scene.run_hard(0.099, 7);  // 99 mm at 8 mm a crossing, the first after 4: six visits to each
+    double const given = 2 * scene.granules.mass[0];
+    auto const& loads = scene.watch().loads;
+    ASSERT_EQ(loads.size(), 2u);
+    EXPECT_NEAR(loads[0].impulse.x / given, -6, 1e-12);
+    EXPECT_NEAR(loads[1].impulse.x / given, 6, 1e-12);
+    EXPECT_NEAR(loads[1].turn.z / given, -6 * 0.002, 1e-12) << "about the origin: -y times the impulse along x";
+}
 }
