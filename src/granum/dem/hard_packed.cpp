@@ -233,6 +233,9 @@ double HardPacked::advance(double now, double until, int& steps)
             Vec3 const by = share_[i] * displacement_[i];
             farthest = std::max(farthest, norm2(by));
             state.body[i].x += by;
+            // The kick gave the energy of a free fall; what the sphere fell less, or was lifted, it does not have.
+            Vec3 const& a = state.acceleration(i);
+            world_.watch.dissipated += state.mass[i] * dot(a, by - step * (before_[i] + (0.5 * step) * a));
             state.body[i].t = now;
         }
         moved_ += std::sqrt(farthest);

@@ -128,6 +128,9 @@ double HardWalls::step_towards(std::size_t wall, Vec3 const& x, Vec3 const& v, V
         // While it moves away, nothing can turn it round faster than its acceleration and the bend of the wall do.
         double const turning = acceleration + curvature(wall, at, *touch) * fastest * fastest;
         if (opening > 0) safe = std::max(safe, turning > 0 ? opening / turning : longest);
+        // Nor can the gap close faster than by its present rate and twice that: what grazes the wall gets on.
+        if (gap > 0 && opening <= 0)
+            safe = std::max(safe, 2 * gap / (std::sqrt(opening * opening + 4 * turning * gap) - opening));
         time += std::max(safe, 1e-12 * longest);
     }
     return never;

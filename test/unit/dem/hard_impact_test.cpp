@@ -240,18 +240,41 @@ TEST(HardFlight, with_drag_follows_the_implicit_step_and_counts_the_impulse)
 
 TEST(HardFlight, of_spheres_that_the_gas_carries_differently_ends_where_they_touch)
 {
-    HardScene scene({.restitution = 0.8, .sliding_friction = 0});
-    for (int k = 0; k < 2; ++k) {
-        scene.add({k == 0 ? -0.01 : 0.01, 0, 0}, {}, 1e-3, 1000);
-        scene.granules.gas_force[k] = Vec3{k == 0 ? 1.0 : -1.0, 0, 0} * scene.granules.mass[k];
+    for (long const steps :
+         {1, 3}) {  // in one step they begin at rest: only what carries them tells that they will meet
+        HardScene scene({.restitution = 0.8, .sliding_friction = 0});
+        for (int k = 0; k < 2; ++k) {
+            scene.add({k == 0 ? -0.01 : 0.01, 0, 0}, {}, 1e-3, 1000);
+            scene.granules.gas_force[k] = Vec3{k == 0 ? 1.0 : -1.0, 0, 0} * scene.granules.mass[k];
+        }
+        scene.prepare_hard();
+        // Each is 9 mm from the plane of symmetry and has 1 m/s2: they meet after sqrt(2 * 0.009) s with 0.134 m/s.
+        double const meet = std::sqrt(0.018);
+        scene.run_hard(0.15, steps);
+        EXPECT_EQ(scene.watch().collisions, 1);
+        EXPECT_NEAR(scene.granules.velocity[0].x, -0.8 * meet + (0.15 - meet), 1e-12);
+        EXPECT_LE(scene.watch().largest_overlap, 1e-12);
     }
-    scene.prepare_hard();
-    // Each is 9 mm from the plane of symmetry and has 1 m/s2: they meet after sqrt(2 * 0.009) s with 0.134 m/s.
-    double const meet = std::sqrt(0.018);
-    scene.run_hard(0.15, 3);
-    EXPECT_EQ(scene.watch().collisions, 1);
-    EXPECT_NEAR(scene.granules.velocity[0].x, -0.8 * meet + (0.15 - meet), 1e-12);
-    EXPECT_LE(scene.watch().largest_overlap, 1e-12);
+}
+
+// The wall bends towards it all the time: it hops along, each hop about a contact time long, and loses no speed.
+TEST(HardFlight, that_slides_along_a_cylinder_hops_no_shorter_than_a_contact_time)
+{
+    for (bool const closed : {false, true}) {  // an open end can be touched, and the wall is then approached by steps
+        HardScene scene({.restitution = 0.5, .sliding_friction = 0});
+        scene.settings.walls = {section(-0.1, 0.02, 0.1, 0.02)};
+        if (closed) scene.add_plane({0, 0, -0.1}, {0, 0, 1}), scene.add_plane({0, 0, 0.1}, {0, 0, -1});
+        scene.add({0.019, 0, 0}, {0, 1, 0}, 1e-3, 1000);
+        scene.prepare_hard();
+        double const time = 0.001;
+        scene.run_hard(time);
+        auto const &v = scene.granules.velocity[0], &x = scene.granules.position[0];
+        EXPECT_NEAR(norm(v), 1, 1e-5);
+        EXPECT_NEAR(std::atan2(x.y, x.x), time / 0.019, 1e-6);
+        EXPECT_GT(scene.watch().wall_collisions, 100);
+        EXPECT_LT(scene.watch().wall_collisions, 1.1 * time / scene.options.contact_time);
+        EXPECT_LE(scene.watch().largest_overlap, 1e-9);
+    }
 }
 
 TEST(HardSpheres, refuse_a_start_with_overlaps_and_name_the_two)
