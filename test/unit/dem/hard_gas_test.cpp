@@ -296,7 +296,7 @@ TEST(HardPile, goes_on_in_another_engine_with_the_same_bits)
 TEST(HardGas, goes_on_in_another_engine_that_knows_who_has_just_collided)
 {
     auto scene = scene::hard_gas(8, 0.05, 0.01, {.restitution = 0.8, .sliding_friction = 0.2}, 4);
-    scene.options.contact_time = 1e-3;
+    scene.options.contact_time = 3e-3;
     scene.prepare_hard();
     scene.run_hard(0.01, 2);
     EXPECT_GT(scene.watch().kept_elastic, 10);
