@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace
 {
 using namespace granum;
@@ -116,6 +118,27 @@ scene::Scene heap(std::vector<std::uint64_t> const& order)
         scene.granules.id[row] = id;
     }
     return scene;
+}
+
+// As when others are added or taken out: those that touch meanwhile keep the springs that they have strained.
+TEST(ContactHistory, survives_that_the_granules_are_taken_over_anew)
+{
+    auto scene = periodic_gas(4, 0.5, 0.05, {.restitution = 0.7, .sliding_friction = 10});  // none slides
+    scene.prepare();
+    double const dt = 2e-6;
+    while (scene.engine->contacts().size() < 20) scene.run(20, dt);
+    std::map<std::pair<dem::Id, dem::Id>, double> before;
+    auto const strain = [](dem::Contact const& contact) { return contact.history[0]; };
+    for (auto const& contact : scene.engine->contacts()) before[{contact.low, contact.high}] = strain(contact);
+    scene.engine->prepare(scene.granules);
+    int strained = 0;
+    for (auto const& contact : scene.engine->contacts()) {
+        auto const found = before.find({contact.low, contact.high});
+        ASSERT_NE(found, before.end());
+        EXPECT_NEAR(strain(contact), found->second, 1e-6 * std::abs(found->second));
+        strained += found->second != 0;
+    }
+    EXPECT_GT(strained, 10);
 }
 
 TEST(InputOrder, of_granules_changes_not_a_bit)
