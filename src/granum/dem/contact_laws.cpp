@@ -41,15 +41,17 @@ law::contact::Pair<double> Laws::effective(std::uint32_t a, std::uint32_t b) con
     }
     auto const& properties = pair(a, b);
     double const damping = std::visit([&](auto const& law) { return law.damping(properties.restitution); }, normal);
-    law::contact::Pair<double> out{.youngs_modulus = compliance > 0 ? 1 / compliance : 0,  // rigid ones never touch
-                                   .shear_modulus = shear_compliance > 0 ? 1 / shear_compliance : 0,
-                                   .damping = damping,
-                                   .tangential_damping = damping,
-                                   .sliding_friction = properties.sliding_friction,
-                                   .rolling_friction = properties.rolling_friction,
-                                   .rolling_damping = properties.rolling_damping,
-                                   .stiffness = properties.stiffness,
-                                   .tangential_stiffness = properties.tangential_ratio * properties.stiffness};
+    law::contact::Pair<double> out{
+        .youngs_modulus = compliance > 0 ? 1 / compliance : 0,  // rigid ones never touch
+        .tangential = law::contact::Ratio(shear_compliance > 0 ? 4 * compliance / shear_compliance : 0),
+        .damping = damping,
+        .tangential_damping = damping,
+        .sliding_friction = properties.sliding_friction,
+        .rolling_friction = properties.rolling_friction,
+        .rolling_damping = properties.rolling_damping,
+        .stiffness = properties.stiffness};
+    if (std::holds_alternative<law::contact::Linear>(normal))
+        out.tangential = law::contact::Ratio(properties.tangential_ratio);
     if (auto const* law = std::get_if<law::contact::HertzViscoelastic>(&normal); law && compliance > 0) {
         double const share = is_wall(a) || is_wall(b) ? 1 : 0.5;
         double const mass = 4.0 / 3.0 * math::pi * std::pow(reference.radius, 3) * reference.density;

@@ -89,8 +89,8 @@ void Engine::Inside::name_overlap()
     for (std::size_t b = 0; b < pairs.blocks(); ++b)
         for (std::size_t lane = 0; lane < kernel::block; ++lane) {
             if (!pairs.touching(b, lane)) continue;
-            auto const low = pairs.rows(b).low[lane], high = pairs.rows(b).high[lane];
-            double const distance = norm(frame.position(low) - frame.position(high) + pairs.shift(b, lane, domain));
+            auto const low = pairs.low(b, lane), high = pairs.high(b, lane);
+            double const distance = norm(apart(low, high));
             double const overlap =
                 (frame.radius(low) + frame.radius(high) - distance) / std::min(frame.radius(low), frame.radius(high));
             if (overlap <= worst) continue;
@@ -107,6 +107,15 @@ void Engine::Inside::name_overlap()
     failure = fmt::format(
         "{} at step {}: the time step is too long, the stiffness too low or granules were placed into each other", who,
         steps);
+}
+
+// From the one row to the other, over a periodic face where that is nearer.
+Vec3 Engine::Inside::apart(std::uint32_t row, std::uint32_t other) const
+{
+    Vec3 out = frame.position(row) - frame.position(other);
+    for (std::size_t d = 0; d < 3; ++d)
+        if (domain.periodic[d]) out[d] -= domain.size()[d] * std::round(out[d] / domain.size()[d]);
+    return out;
 }
 
 void Engine::Inside::forces(double dt)
@@ -130,16 +139,15 @@ void Engine::Inside::kick_with_gas(particle::Store& granules, double half)
 {
     for (std::size_t row = 0; row < frame.owned; ++row) {
         auto& body = frame.bodies[row];
-        auto const& sum = frame.sums[row];
         double const rate = granules.drag_rate[row], mass = granules.mass[row];
         Vec3 const& gas = granules.gas_velocity[row];
-        Vec3 const pull = (Frame::vec(sum.force) + granules.gas_force[row]) * body.inverse_mass + settings.gravity;
+        Vec3 const pull = (Frame::vec(body.force) + granules.gas_force[row]) * body.inverse_mass + settings.gravity;
         Vec3 const velocity = (Frame::vec(body.velocity) + half * (pull + rate * gas)) * (1 / (1 + half * rate));
         granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
         double const turning = half * 2.5 * body.inverse_mass / (body.radius * body.radius);
         for (std::size_t d = 0; d < 3; ++d) {
             body.velocity[d] = velocity[d];
-            body.spin[d] += turning * sum.torque[d];
+            body.spin[d] += turning * body.torque[d];
         }
     }
 }
@@ -148,7 +156,7 @@ double Engine::Inside::farthest() const
 {
     double farthest2 = 0;
     for (std::size_t row = 0; row < frame.owned; ++row)
-        farthest2 = std::max(farthest2, norm2(frame.position(row) - built_at[row]));
+        farthest2 = std::max(farthest2, norm2(frame.position(row) - Frame::vec(frame.bodies[row].built)));
     return std::sqrt(farthest2);
 }
 
@@ -207,7 +215,7 @@ void Engine::prepare(particle::Store& granules)
         known.push_back({in.frame.id[row], ContactRecord::wall_bit | partner, history});
     });
     resume(granules, known);
-    std::fill(in.frame.sums.begin(), in.frame.sums.end(), kernel::Sum{});
+    for (auto& body : in.frame.bodies) std::fill_n(body.force, 8, 0.0);
     in.forces(0);
     in.agree_on_failure();
     in.watch.wall_force = in.walls.force();
@@ -242,7 +250,6 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
         if (gas)
             for (int kick = 0; kick < kicks; ++kick) in.kick_with_gas(granules, half);
         kernel::Motion motion{.bodies = in.frame.bodies.data(),
-                              .sums = in.frame.sums.data(),
                               .rows = in.frame.owned,
                               .gravity = {in.settings.gravity.x, in.settings.gravity.y, in.settings.gravity.z},
                               .half = half,
@@ -251,6 +258,7 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
                               .clear = drift != 0};
         if (!gas || drift != 0) in.kernel->move(motion, seen);
         if (!seen.finite) in.find_non_finite();
+        if (drift != 0) in.frame.wrap(in.domain);
         return std::sqrt(seen.fastest2) * drift;
     };
     for (int k = 0; k < steps; ++k) {
@@ -278,7 +286,7 @@ void Engine::changed(particle::Store& granules)
     in.frame.refresh(granules);
     double growth = 0;
     for (std::size_t row = 0; row < granules.owned; ++row)
-        growth = std::max(growth, granules.radius[row] - in.built_radius[row]);
+        growth = std::max(growth, granules.radius[row] - in.frame.bodies[row].built_radius);
     in.growth = in.comm.max(growth);
     if (in.growth > 0.25 * in.skin) {
         in.rebuild(granules);
@@ -319,9 +327,9 @@ std::vector<Contact> Engine::contacts() const
     for (std::size_t b = 0; b < in.pairs.blocks(); ++b)
         for (std::size_t lane = 0; lane < kernel::block; ++lane) {
             if (!in.pairs.touching(b, lane)) continue;
-            auto const low = in.pairs.rows(b).low[lane], high = in.pairs.rows(b).high[lane];
+            auto const low = in.pairs.low(b, lane), high = in.pairs.high(b, lane);
             auto const &one = frame.bodies[low], &other = frame.bodies[high];
-            Vec3 const apart = frame.position(low) - frame.position(high) + in.pairs.shift(b, lane, in.domain);
+            Vec3 const apart = in.apart(low, high);
             double const distance = norm(apart), overlap = one.radius + other.radius - distance;
             double const speed = dot(Frame::vec(one.velocity) - Frame::vec(other.velocity), apart) / distance;
             out.push_back({frame.id[low], frame.id[high], false, overlap,
@@ -394,7 +402,7 @@ std::string Engine::kernel() const
 std::size_t Engine::bytes() const
 {
     auto const& in = *inside_;
-    return in.frame.bodies.capacity() * (sizeof(kernel::Body) + sizeof(kernel::Sum)) + in.pairs.bytes();
+    return in.frame.bodies.capacity() * sizeof(kernel::Body) + in.pairs.bytes();
 }
 par::Partition const& Engine::partition() const
 {

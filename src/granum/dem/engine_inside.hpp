@@ -28,12 +28,11 @@ struct Engine::Inside
     Watch watch;
     base::Stopwatch stopwatch;
 
-    double skin = 0;             // of the present list, m
-    double growth = 0;           // largest growth of a radius since the list was made, m
-    double travelled = 0;        // no granule went farther since the list was made, m
-    std::vector<Vec3> built_at;  // positions when the list was made
-    std::vector<double> built_radius;
+    double skin = 0;       // of the present list, m
+    double growth = 0;     // largest growth of a radius since the list was made, m
+    double travelled = 0;  // no granule went farther since the list was made, m
     long steps = 0, built_step = 0;
+    bool sorted = false;  // rows, at least once
     long unsorted_rebuilds = 0, unbalanced_rebuilds = 0;
     std::string failure;  // seen on this rank, not yet told to the others
 
@@ -51,6 +50,7 @@ struct Engine::Inside
     void agree_on_failure();
     void find_non_finite();
     void name_overlap();
+    Vec3 apart(std::uint32_t row, std::uint32_t other) const;
     void forces(double dt);
     void kick_with_gas(particle::Store& granules, double half);
     bool outgrown(double moved);

@@ -27,17 +27,44 @@ void take_row(kernel::Body& body, particle::Store const& granules, std::size_t r
 }
 }
 
+kernel::Images Domain::images() const
+{
+    kernel::Images out;
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (!periodic[d]) continue;
+        out.any = true;
+        out.length[d] = upper[d] - lower[d];
+        out.half[d] = 0.5 * out.length[d];
+    }
+    return out;
+}
+
+void Frame::wrap(Domain const& domain)
+{
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (!domain.periodic[d]) continue;
+        double const low = domain.lower[d], high = domain.upper[d], length = high - low;
+        for (std::size_t row = 0; row < owned; ++row) {
+            auto& body = bodies[row];
+            double& x = body.position[d];
+            if (x >= low && x < high) continue;
+            double const lengths = length * std::floor((x - low) / length);
+            x -= lengths;
+            if (!(x >= low && x < high)) x = low;  // rounding at the face
+            body.built[d] -= lengths;
+        }
+    }
+}
+
 void Frame::resize(std::size_t rows)
 {
     bodies.resize(rows + 2);
-    sums.resize(rows + 2);
     material.resize(rows + 2);
     id.resize(rows);
     for (std::size_t k = rows; k < rows + 2; ++k) {
         bodies[k] = {};
         bodies[k].position[0] = k == rows ? 1e30 : -1e30;
         bodies[k].radius = bodies[k].inverse_mass = bodies[k].rounder = 1;
-        sums[k] = {};
         material[k] = 0;
     }
 }
@@ -50,9 +77,8 @@ void Frame::take(particle::Store const& granules)
     for (std::size_t row = 0; row < owned; ++row) {
         id[row] = granules.id[row];
         material[row] = static_cast<std::uint8_t>(granules.material[row]);
-        sums[row] = {};
-        set(sums[row].force, granules.force[row]);
-        set(sums[row].torque, granules.torque[row]);
+        set(bodies[row].force, granules.force[row]);
+        set(bodies[row].torque, granules.torque[row]);
     }
 }
 
@@ -67,8 +93,8 @@ void Frame::give(particle::Store& granules) const
         granules.position[row] = vec(bodies[row].position);
         granules.velocity[row] = vec(bodies[row].velocity);
         granules.spin[row] = vec(bodies[row].spin);
-        granules.force[row] = vec(sums[row].force);
-        granules.torque[row] = vec(sums[row].torque);
+        granules.force[row] = vec(bodies[row].force);
+        granules.torque[row] = vec(bodies[row].torque);
     }
 }
 

@@ -22,14 +22,13 @@ struct Domain
     std::array<bool, 3> periodic{};
 
     Vec3 size() const { return upper - lower; }
-    bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+    kernel::Images images() const;
 };
 
 //! Rows as in the store: owned granules, then those that others own. Two rows more, behind the last, meet nobody.
 struct Frame
 {
     base::AlignedVector<kernel::Body> bodies;
-    base::AlignedVector<kernel::Sum> sums;
     std::vector<std::uint8_t> material;
     std::vector<Id> id;
     std::size_t owned = 0;
@@ -47,6 +46,9 @@ struct Frame
     void give(particle::Store& granules) const;
     //! Makes room for rows behind the owned ones, up to `rows` in all, and closes the end.
     void resize(std::size_t rows);
+
+    //! Brings owned rows that left a periodic domain through one side back through the other.
+    void wrap(Domain const& domain);
 
     static Vec3 vec(double const* from) { return {from[0], from[1], from[2]}; }
     Vec3 position(std::size_t row) const { return vec(bodies[row].position); }

@@ -125,7 +125,6 @@ void Halo::fill(Frame& frame, double reach)
             frame.bodies[side.first + k] = copy.body;
             frame.id[side.first + k] = copy.id;
             frame.material[side.first + k] = static_cast<std::uint8_t>(copy.material);
-            frame.sums[side.first + k] = {};
         }
     }
 }

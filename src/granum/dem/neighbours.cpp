@@ -208,12 +208,9 @@ void NeighbourSearch::find(Frame const& frame, Domain const& domain, Vec3 const&
                       .radius = places_[3].data(),
                       .skin = skin,
                       .close = close,
+                      .images = domain.images(),
                       .near = seen_near_.data(),
                       .far = seen_far_.data()};
-    for (std::size_t d = 0; d < 3; ++d) {
-        look.length[d] = domain.periodic[d] ? domain.size()[d] : 0;
-        look.half[d] = domain.periodic[d] ? 0.5 * domain.size()[d] : std::numeric_limits<double>::infinity();
-    }
     for (std::size_t level = 0; level < classes_.size(); ++level) {
         auto const& own = classes_[level];
         // With fewer than three cells around a periodic direction a cell meets another from both sides: then all are

@@ -7,35 +7,14 @@ namespace granum::dem
 {
 using kernel::block;
 
-namespace
-{
-// Shifts by whole lengths of the domain, numbered (x + 1) + 3 (y + 1) + 9 (z + 1).
-constexpr std::uint8_t no_shift = 13;
-
-std::uint8_t image_of(Vec3 const& apart, Domain const& domain)
-{
-    int code = 0, unit = 1;
-    Vec3 const whole = domain.size();
-    for (std::size_t d = 0; d < 3; ++d, unit *= 3) {
-        int const lengths = domain.periodic[d] ? -static_cast<int>(std::lround(apart[d] / whole[d])) : 0;
-        code += unit * (std::clamp(lengths, -1, 1) + 1);
-    }
-    return static_cast<std::uint8_t>(code);
-}
-
-Vec3 shift_of(std::uint8_t image, Domain const& domain)
-{
-    Vec3 const whole = domain.size();
-    return {(image % 3 - 1) * whole.x, (image / 3 % 3 - 1) * whole.y, (image / 9 - 1) * whole.z};
-}
-}
-
-void PairList::make(Frame const& frame, Domain const& domain, Candidates const& candidates,
+void PairList::make(Frame const& frame, Candidates const& candidates,
                     std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before)
 {
     auto const former_blocks = std::exchange(blocks_, {});
     auto const former_history = std::exchange(history_, {});
     auto const former_touching = std::exchange(touching_, {});
+    auto const* const material = frame.material.data();
+    mixed_ = std::any_of(material, material + frame.rows(), [&](auto other) { return other != material[0]; });
     near_begin_ = candidates.near_begin;
     near_end_ = candidates.near_end;
     pairs_ = candidates.near.size() + candidates.far.size();
@@ -44,20 +23,13 @@ void PairList::make(Frame const& frame, Domain const& domain, Candidates const& 
     blocks_.resize(count);
     history_.assign(count * columns_ * block, 0.0);
     touching_.assign(count, 0);
-    if (domain.any_periodic())
-        image_.assign(count * block, no_shift);
-    else
-        image_.clear();
     auto const place = [&](std::vector<PairRows> const& pairs, std::size_t first_block) {
         std::size_t const padded = (pairs.size() + block - 1) / block * block;
         for (std::size_t k = 0; k < padded; ++k) {
             auto& to = blocks_[first_block + k / block];
             bool const real = k < pairs.size();
-            to.low[k % block] = real ? pairs[k].low : frame.lonely();
-            to.high[k % block] = real ? pairs[k].high : frame.lonely() + 1;
-            if (real && !image_.empty())
-                image_[first_block * block + k] =
-                    image_of(frame.position(pairs[k].low) - frame.position(pairs[k].high), domain);
+            to.low[k % block] = kernel::place_of(real ? pairs[k].low : frame.lonely());
+            to.high[k % block] = kernel::place_of(real ? pairs[k].high : frame.lonely() + 1);
         }
     };
     place(candidates.near, 0);
@@ -66,7 +38,8 @@ void PairList::make(Frame const& frame, Domain const& domain, Candidates const& 
     for (std::size_t b = 0; b < former_blocks.size(); ++b)
         for (std::size_t lane = 0; lane < block; ++lane) {
             if ((former_touching[b] >> lane & 1) == 0) continue;
-            auto const low = former_blocks[b].low[lane], high = former_blocks[b].high[lane];
+            auto const low = kernel::row_of(former_blocks[b].low[lane]),
+                       high = kernel::row_of(former_blocks[b].high[lane]);
             auto const low_now = row_now(low), high_now = row_now(high);
             auto const* const from = former_history.data() + b * columns_ * block + lane;
             std::size_t const to =
@@ -86,11 +59,12 @@ void PairList::make(Frame const& frame, Domain const& domain, Candidates const& 
 
 std::size_t PairList::find_near(std::uint32_t row, std::uint32_t other) const
 {
+    auto const one = kernel::place_of(row), two = kernel::place_of(other);
     for (auto const finder : {row, other})
         for (std::size_t k = near_begin_[finder]; k < near_end_[finder]; ++k) {
             auto const& at = blocks_[k / block];
             auto const low = at.low[k % block], high = at.high[k % block];
-            if ((low == row && high == other) || (low == other && high == row)) return k;
+            if ((low == one && high == two) || (low == two && high == one)) return k;
         }
     return pairs_;
 }
@@ -110,11 +84,6 @@ History PairList::history(std::size_t b, std::size_t lane) const
     return out;
 }
 
-Vec3 PairList::shift(std::size_t b, std::size_t lane, Domain const& domain) const
-{
-    return image_.empty() ? Vec3{} : shift_of(image_[b * block + lane], domain);
-}
-
 double PairList::take_lost_energy()
 {
     return std::exchange(lost_energy_, 0.0);
@@ -122,26 +91,20 @@ double PairList::take_lost_energy()
 
 std::size_t PairList::bytes() const
 {
-    return blocks_.capacity() * sizeof(kernel::PairBlock) + history_.capacity() * sizeof(double) + image_.capacity() +
+    return blocks_.capacity() * sizeof(kernel::PairBlock) + history_.capacity() * sizeof(double) +
            touching_.capacity() + 4 * (near_begin_.capacity() + near_end_.capacity());
 }
 
 void PairList::run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain,
                    double dt, kernel::Seen& seen)
 {
-    double shifts[27][3];
-    for (std::uint8_t image = 0; image < 27; ++image) {
-        Vec3 const by = shift_of(image, domain);
-        shifts[image][0] = by.x, shifts[image][1] = by.y, shifts[image][2] = by.z;
-    }
     kernel.pairs({.rules = &rules,
                   .bodies = frame.bodies.data(),
-                  .material = rules.materials > 1 ? frame.material.data() : nullptr,
-                  .sums = frame.sums.data(),
+                  .material = mixed_ ? frame.material.data() : nullptr,
+                  .pairing = frame.rows() > 0 ? frame.material[0] * (rules.materials + 1) : 0,
                   .blocks = blocks_.size(),
                   .pairs = blocks_.data(),
-                  .image = image_.empty() ? nullptr : image_.data(),
-                  .shifts = shifts,
+                  .images = domain.images(),
                   .history = history_.data(),
                   .touching = touching_.data(),
                   .owned = frame.owned,

@@ -26,7 +26,7 @@ class PairList
     //! Makes the list of `candidates`. `row_now` says where a row of the list before is now (Frame::lonely or more:
     //! nowhere). Histories of contacts go on; what springs of contacts that are no candidates any more had stored is
     //! passed to `ended` with the number of owned partners that they had.
-    void make(Frame const& frame, Domain const& domain, Candidates const& candidates,
+    void make(Frame const& frame, Candidates const& candidates,
               std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before);
 
     //! Gives a history to a pair, if it is in the list. For contacts that come from another rank or a checkpoint.
@@ -38,8 +38,7 @@ class PairList
     {
         for (std::size_t b = 0; b < blocks_.size(); ++b)
             for (std::size_t lane = 0; lane < kernel::block; ++lane)
-                if ((touching_[b] >> lane & 1) != 0)
-                    what(blocks_[b].low[lane], blocks_[b].high[lane], history(b, lane));
+                if ((touching_[b] >> lane & 1) != 0) what(low(b, lane), high(b, lane), history(b, lane));
     }
 
     void run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain, double dt,
@@ -53,9 +52,8 @@ class PairList
     std::size_t bytes() const;
 
     History history(std::size_t b, std::size_t lane) const;
-    //! The shift to add to low - high of a pair, m.
-    Vec3 shift(std::size_t b, std::size_t lane, Domain const& domain) const;
-    kernel::PairBlock const& rows(std::size_t b) const { return blocks_[b]; }
+    std::uint32_t low(std::size_t b, std::size_t lane) const { return kernel::row_of(blocks_[b].low[lane]); }
+    std::uint32_t high(std::size_t b, std::size_t lane) const { return kernel::row_of(blocks_[b].high[lane]); }
     bool touching(std::size_t b, std::size_t lane) const { return (touching_[b] >> lane & 1) != 0; }
 
   private:
@@ -64,8 +62,9 @@ class PairList
     std::size_t columns_ = 6, pairs_ = 0;
     base::AlignedVector<kernel::PairBlock> blocks_;
     base::AlignedVector<double> history_;
-    std::vector<std::uint8_t> touching_, image_;
+    std::vector<std::uint8_t> touching_;
     std::vector<std::uint32_t> near_begin_, near_end_;
+    bool mixed_ = false;  // more than one material
     double lost_energy_ = 0;
 };
 }

@@ -139,21 +139,13 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         rules.fine_energy = 1.5 * 0x1p52 * (coarse * 0x1p-28);
     }
 
-    for (std::size_t row = 0; row < frame.owned; ++row)
-        for (std::size_t d = 0; d < 3; ++d) {
-            double const low = domain.lower[d], high = domain.upper[d];
-            double& x = frame.bodies[row].position[d];
-            if (!domain.periodic[d] || (x >= low && x < high)) continue;
-            x -= (high - low) * std::floor((x - low) / (high - low));
-            if (x < low || x >= high) x = low;  // rounding at the face
-        }
+    frame.wrap(domain);
 
     std::size_t const owned_before = frame.owned;
     std::vector<Id> const ids_before = many ? frame.id : std::vector<Id>{};
     std::vector<std::uint32_t> moved_to;  // of former owned rows; empty: they stay
     std::vector<ContactRecord> arrived;
-    bool const first = built_at.empty();
-    bool const sort = first || ++unsorted_rebuilds >= rebuilds_between_sorts;
+    bool const sort = !std::exchange(sorted, true) || ++unsorted_rebuilds >= rebuilds_between_sorts;
     if (many) {
         if (settings.balance_every > 0 && ++unbalanced_rebuilds >= settings.balance_every) balance(granules);
         frame.give(granules);
@@ -198,7 +190,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         }
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
-    pairs.make(frame, domain, candidates, row_now, owned_before);
+    pairs.make(frame, candidates, row_now, owned_before);
     walls.make(frame, skin, largest, row_now);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
@@ -214,11 +206,9 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     restore(arrived);
     restore(saved);
 
-    built_at.resize(frame.owned);
-    built_radius.resize(frame.owned);
     for (std::size_t row = 0; row < frame.owned; ++row) {
-        built_at[row] = frame.position(row);
-        built_radius[row] = frame.radius(row);
+        auto& body = frame.bodies[row];
+        std::copy_n(body.position, 4, body.built);
     }
     built_step = steps;
     growth = 0;

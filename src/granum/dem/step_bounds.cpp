@@ -44,13 +44,13 @@ void of_meeting(Laws const& laws, Meeting const& at, double speed, std::vector<S
     double duration = 0, tangential = 0;
     if (linear) {
         duration = math::pi * std::sqrt(at.mass / at.pair.stiffness);
-        tangential = at.pair.tangential_stiffness;
+        tangential = at.pair.tangential.value * at.pair.stiffness;
         out.push_back({duration / 20, fmt::format("1/20 of the contact time {:.3g} s with {}", duration, at.partner)});
     } else {
         double const overlap =
             std::pow(15 * at.mass * speed * speed / (16 * at.pair.youngs_modulus * std::sqrt(at.radius)), 0.4);
         duration = 2.943275 * overlap / speed;
-        tangential = 8 * at.pair.shear_modulus * std::sqrt(at.radius * overlap);
+        tangential = 2 * at.pair.tangential.value * at.pair.youngs_modulus * std::sqrt(at.radius * overlap);
         out.push_back({duration / 20, fmt::format("1/20 of the contact time {:.3g} s with {} at {:.3g} m/s", duration,
                                                   at.partner, speed)});
     }

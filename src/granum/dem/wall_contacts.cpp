@@ -92,7 +92,7 @@ void WallContacts::clear()
 {
     near_.clear();
     facets_.clear();
-    rows_.clear();
+    granules_.clear();
     body_.clear();
     touching_.clear();
     size_ = 0;
@@ -141,7 +141,7 @@ void WallContacts::make(Frame const& frame, double skin, double largest,
     std::vector<Known> known;
     for (std::size_t k = 0; k < size_; ++k)
         if (touches(k))
-            if (auto const now = row_now(rows_[k]); now < frame.owned) known.push_back({now, partner(k), history(k)});
+            if (auto const now = row_now(row(k)); now < frame.owned) known.push_back({now, partner(k), history(k)});
 
     clear();
     for (auto& body : bodies_) {
@@ -157,12 +157,12 @@ void WallContacts::make(Frame const& frame, double skin, double largest,
             auto const places = static_cast<std::uint32_t>(std::min(facets_.size() - first, most_touches));
             if (places == 0) continue;
             near_.push_back({row, b, static_cast<std::uint32_t>(size_), places, first});
-            rows_.insert(rows_.end(), places, row);
+            granules_.insert(granules_.end(), places, kernel::place_of(row));
             body_.insert(body_.end(), places, b);
             size_ += places;
         }
     std::size_t const padded = (size_ + block - 1) / block * block;
-    rows_.resize(padded, frame.lonely());
+    granules_.resize(padded, kernel::place_of(frame.lonely()));
     body_.resize(padded, 0);
     material_.assign(padded, 0);
     for (std::size_t k = 0; k < size_; ++k) material_[k] = static_cast<std::uint8_t>(bodies_[body_[k]].material);
@@ -309,9 +309,8 @@ void WallContacts::run(kernel::Kernel const& kernel, kernel::Rules const& rules,
         kernel.walls({.rules = &rules,
                       .bodies = frame.bodies.data(),
                       .material = frame.material.data(),
-                      .sums = frame.sums.data(),
                       .blocks = touching_.size(),
-                      .row = rows_.data(),
+                      .granule = granules_.data(),
                       .wall_material = material_.data(),
                       .overlap = overlap_.data(),
                       .normal = {n[0], n[1], n[2]},
@@ -341,7 +340,7 @@ double WallContacts::power(kernel::Rules const& rules, Frame const& frame) const
     double sum = 0;
     for (std::size_t k = 0; k < size_; ++k) {
         if (!touches(k) || bodies_[body_[k]].motions.empty()) continue;
-        double const lever = frame.radius(rows_[k]) - rules.lever_shift * overlap_[k];
+        double const lever = frame.radius(row(k)) - rules.lever_shift * overlap_[k];
         Vec3 const force = get(force_, k), couple = get(torque_, k) + lever * cross(normal(k), force);
         sum += dot(force, velocity(k)) + dot(couple, get(spin_, k));
     }
@@ -357,13 +356,13 @@ std::vector<WallContacts::ExactLoad> WallContacts::tally(Frame const& frame, par
         if (!touches(k) || (servos_only && !body.servo)) continue;
         // What the body receives is the opposite of what the granule receives, moment included.
         Vec3 const force = -get(force_, k);
-        Vec3 const arm = frame.position(rows_[k]) - body.pose.to_space(body.origin);
+        Vec3 const arm = frame.position(row(k)) - body.pose.to_space(body.origin);
         Vec3 const torque = cross(arm, force) - get(torque_, k);
         for (std::size_t d = 0; d < 3; ++d) {
             sums[body_[k]][d].add(force[d]);
             sums[body_[k]][3 + d].add(torque[d]);
         }
-        if (body.servo) sums[body_[k]][6].add(1 / frame.bodies[rows_[k]].inverse_mass);
+        if (body.servo) sums[body_[k]][6].add(1 / frame.bodies[row(k)].inverse_mass);
     }
     static_assert(sizeof(ExactLoad) == 7 * base::ExactSum::size * sizeof(std::int64_t));
     if (comm.size() > 1 && !sums.empty())

@@ -53,7 +53,7 @@ class WallContacts
     void for_each_touching(What&& what) const
     {
         for (std::size_t k = 0; k < size_; ++k)
-            if (touches(k)) what(rows_[k], partner(k), history(k));
+            if (touches(k)) what(row(k), partner(k), history(k));
     }
 
     Vec3 force() const;  //!< of all bodies on this rank's granules at the last run, N
@@ -73,7 +73,7 @@ class WallContacts
     //! Places of the list; those that touch hold a contact.
     std::size_t size() const { return size_; }
     bool touches(std::size_t k) const { return (touching_[k / kernel::block] >> (k % kernel::block) & 1) != 0; }
-    std::uint32_t row(std::size_t k) const { return rows_[k]; }
+    std::uint32_t row(std::size_t k) const { return kernel::row_of(granules_[k]); }
     std::uint32_t body(std::size_t k) const { return body_[k]; }
     double overlap(std::size_t k) const { return overlap_[k]; }  //!< m
     Vec3 normal(std::size_t k) const { return get(normal_, k); }
@@ -137,7 +137,7 @@ class WallContacts
     bool ledger_ = false;
     std::vector<Near> near_;  // sorted by row, then body
     std::vector<std::uint32_t> facets_;
-    std::vector<std::uint32_t> rows_, body_;  // per place
+    std::vector<std::uint32_t> granules_, body_;  // per place
     std::vector<std::uint8_t> material_, touching_;
     Numbers history_, overlap_;
     Triples normal_, velocity_, spin_, force_, torque_;

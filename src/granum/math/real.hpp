@@ -14,6 +14,16 @@ inline double mul_add(double a, double b, double c)
 {
     return a * b + c;
 }
+//! a b - c.
+inline double mul_sub(double a, double b, double c)
+{
+    return a * b - c;
+}
+//! c - a b.
+inline double neg_mul_add(double a, double b, double c)
+{
+    return c - a * b;
+}
 inline double sqrt(double x)
 {
     return std::sqrt(x);
@@ -25,6 +35,11 @@ inline double reciprocal(double x)
 inline double reciprocal_sqrt(double x)
 {
     return 1 / std::sqrt(x);
+}
+//! x^(-1/4).
+inline double inverse_fourth_root(double x)
+{
+    return 1 / std::sqrt(std::sqrt(x));
 }
 inline double max(double a, double b)
 {

@@ -108,8 +108,8 @@ struct Contacts
         touching.assign(blocks, 0);
         for (std::size_t k = 0; k < blocks * block; ++k) {
             bool const real = k < count;
-            pairs[k / block].low[k % block] = real ? static_cast<std::uint32_t>(2 * k) : frame.lonely();
-            pairs[k / block].high[k % block] = real ? static_cast<std::uint32_t>(2 * k + 1) : frame.lonely() + 1;
+            pairs[k / block].low[k % block] = kernel::place_of(real ? 2 * k : frame.lonely());
+            pairs[k / block].high[k % block] = kernel::place_of(real ? 2 * k + 1 : frame.lonely() + 1);
         }
     }
 
@@ -118,11 +118,10 @@ struct Contacts
         return {.rules = &rules,
                 .bodies = frame.bodies.data(),
                 .material = rules.materials > 1 ? frame.material.data() : nullptr,
-                .sums = frame.sums.data(),
+                .pairing = 0,
                 .blocks = pairs.size(),
                 .pairs = pairs.data(),
-                .image = nullptr,
-                .shifts = nullptr,
+                .images = {},
                 .history = history.data(),
                 .touching = touching.data(),
                 .owned = frame.owned - 1,
@@ -140,28 +139,27 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
         auto bodies = contacts.frame.bodies;
         auto history = contacts.history;
         auto touching = contacts.touching;
-        auto sums = contacts.frame.sums;
+        auto plain_bodies = bodies;
         auto plain_history = history;
         auto plain_touching = touching;
         for (int step = 0; step < steps; ++step) {
             // Histories follow the plain loops, so that each step is compared by itself.
             history = plain_history;
             touching = plain_touching;
-            auto plain_sums = contacts.frame.sums;
-            sums = plain_sums;
+            plain_bodies = bodies;
             auto pass = contacts.pass(dt);
-            pass.bodies = bodies.data();
             kernel::Seen seen, plain;
-            pass.sums = sums.data(), pass.history = history.data(), pass.touching = touching.data();
+            pass.bodies = bodies.data(), pass.history = history.data(), pass.touching = touching.data();
             fast->pairs(pass, seen);
-            pass.sums = plain_sums.data(), pass.history = plain_history.data(), pass.touching = plain_touching.data();
+            pass.bodies = plain_bodies.data(), pass.history = plain_history.data(),
+            pass.touching = plain_touching.data();
             kernel::scalar().pairs(pass, plain);
             RC_ASSERT(touching == plain_touching);
             RC_ASSERT(seen.contacts == plain.contacts);
             RC_ASSERT(std::abs(seen.largest_overlap - plain.largest_overlap) <= 1e-14);
             for (std::size_t row = 0; row < contacts.frame.owned; ++row) {
-                auto const force = [](kernel::Sum const& sum) { return Frame::vec(sum.force); };
-                auto const torque = [](kernel::Sum const& sum) { return Frame::vec(sum.torque); };
+                auto const force = [](kernel::Body const& body) { return Frame::vec(body.force); };
+                auto const torque = [](kernel::Body const& body) { return Frame::vec(body.torque); };
                 // The force at an overlap of a thousandth of this radius, or what the spring has at the true overlap
                 // where that is larger (the dashpot may take most of it away), and what is rounded the other way.
                 double const radius = bodies[row].radius, ratio = radius / contacts.smallest;
@@ -169,17 +167,19 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
                 double const apart = norm(Frame::vec(bodies[row].position) - Frame::vec(bodies[row ^ 1].position));
                 double const deep = std::max(0.0, 1e3 * (radius + bodies[row ^ 1].radius - apart) / radius);
                 double const spring = reference * (contacts.frame.unit_power == 2 ? std::pow(deep, 1.5) : deep);
-                double const grain = 1e-12 * std::max({reference, spring, norm(force(plain_sums[row]))}) +
+                double const grain = 1e-12 * std::max({reference, spring, norm(force(plain_bodies[row]))}) +
                                      2 * bodies[row].rounder * 0x1p-52;
-                RC_ASSERT(norm(force(sums[row]) - force(plain_sums[row])) <= grain);
-                RC_ASSERT(norm(torque(sums[row]) - torque(plain_sums[row])) <= radius * grain);
+                RC_ASSERT(norm(force(bodies[row]) - force(plain_bodies[row])) <= grain);
+                RC_ASSERT(norm(torque(bodies[row]) - torque(plain_bodies[row])) <= radius * grain);
             }
             double const energy =
                 contacts.unit * bodies[0].radius + std::abs(plain.elastic) + std::abs(plain.dissipated);
             RC_ASSERT(std::abs(seen.elastic - plain.elastic) <= 1e-11 * energy);
             RC_ASSERT(std::abs(seen.dissipated - plain.dissipated) <= 1e-11 * energy);
-            for (std::size_t b = 0; b < bodies.size() - 2; ++b)
+            for (std::size_t b = 0; b < bodies.size() - 2; ++b) {
                 for (std::size_t d = 0; d < 3; ++d) bodies[b].position[d] += dt * bodies[b].velocity[d];
+                std::fill_n(bodies[b].force, 8, 0.0);
+            }
         }
     }
 }
@@ -198,26 +198,33 @@ TEST(Kernels, move_rows_alike_and_see_a_number_that_is_not_finite)
     for (auto const* kernel : kernel::kernels())
         for (int kicks : {0, 1, 2}) {
             base::AlignedVector<kernel::Body> bodies(5), plain_bodies;
-            base::AlignedVector<kernel::Sum> sums(5), plain_sums;
             for (std::size_t row = 0; row < 5; ++row) {
                 auto& body = bodies[row];
-                body = {{0.1 * static_cast<double>(row), 0.2, 0.3}, 1e-3, {1, -2, 0.5}, 1e6, {10, 20, -30}, 1};
-                sums[row] = {{1e-5, 2e-5, -1e-6 * static_cast<double>(row), 0}, {1e-9, -2e-9, 3e-9, 0}};
+                body = {.position = {0.1 * static_cast<double>(row), 0.2, 0.3},
+                        .radius = 1e-3,
+                        .velocity = {1, -2, 0.5},
+                        .inverse_mass = 1e6,
+                        .spin = {10, 20, -30},
+                        .rounder = 1,
+                        .built = {},
+                        .built_radius = 0,
+                        .force = {1e-5, 2e-5, -1e-6 * static_cast<double>(row), 0},
+                        .torque = {1e-9, -2e-9, 3e-9, 0}};
             }
-            plain_bodies = bodies, plain_sums = sums;
+            plain_bodies = bodies;
             kernel::Motion motion{
                 .rows = 5, .gravity = {0, 1, -9.81}, .half = 5e-6, .drift = 1e-5, .kicks = kicks, .clear = true};
             kernel::MotionSeen seen, plain;
-            motion.bodies = bodies.data(), motion.sums = sums.data();
+            motion.bodies = bodies.data();
             kernel->move(motion, seen);
-            motion.bodies = plain_bodies.data(), motion.sums = plain_sums.data();
+            motion.bodies = plain_bodies.data();
             kernel::scalar().move(motion, plain);
             for (std::size_t row = 0; row < 5; ++row) {
                 for (std::size_t d = 0; d < 3; ++d) {
                     EXPECT_NEAR(bodies[row].position[d], plain_bodies[row].position[d], 1e-16);
                     EXPECT_NEAR(bodies[row].velocity[d], plain_bodies[row].velocity[d], 1e-14);
                     EXPECT_NEAR(bodies[row].spin[d], plain_bodies[row].spin[d], 1e-13);
-                    EXPECT_EQ(sums[row].force[d], 0);
+                    EXPECT_EQ(bodies[row].force[d], 0);
                 }
                 EXPECT_EQ(bodies[row].radius, 1e-3);
                 EXPECT_EQ(bodies[row].inverse_mass, 1e6);
@@ -225,7 +232,7 @@ TEST(Kernels, move_rows_alike_and_see_a_number_that_is_not_finite)
             EXPECT_TRUE(seen.finite);
             EXPECT_GE(seen.fastest2, plain.fastest2 * (1 - 1e-12));
             bodies[3].velocity[1] = std::nan("");
-            motion.bodies = bodies.data(), motion.sums = sums.data();
+            motion.bodies = bodies.data();
             kernel->move(motion, seen);
             EXPECT_FALSE(seen.finite) << kernel->name;
         }

@@ -39,14 +39,13 @@ struct Random
     {
         double const modulus = magnitude(1e5, 1e12), stiffness = magnitude(1, 1e7);
         return {.youngs_modulus = modulus,
-                .shear_modulus = modulus * between(0.1, 0.5),
+                .tangential = Ratio(between(0.1, 2)),
                 .damping = magnitude(1e-4, 15),
                 .tangential_damping = magnitude(1e-4, 15),
                 .sliding_friction = between(0, 2),
                 .rolling_friction = between(0, 1),
                 .rolling_damping = between(0, 2),
                 .stiffness = stiffness,
-                .tangential_stiffness = stiffness * between(0.1, 1),
                 .dissipation_time = magnitude(1e-9, 1e-3)};
     }
     Approach<double> approach()
@@ -162,7 +161,7 @@ TYPED_TEST(EveryTangentialLaw, is_finite_within_the_friction_and_exactly_opposit
 TYPED_TEST(EveryTangentialLaw, gives_back_no_more_than_it_was_given_over_a_closed_cycle_at_one_overlap)
 {
     Pair<double> const pair{
-        .youngs_modulus = 1e7, .shear_modulus = 3e6, .tangential_damping = 0.05, .sliding_friction = 0.4};
+        .youngs_modulus = 1e7, .tangential = Ratio(1.2), .tangential_damping = 0.05, .sliding_friction = 0.4};
     Approach<double> const at{
         .overlap = 1e-5, .radius = 1e-3, .mass = 1e-6, .inertia = 1.4e-12, .speed = 0, .step = 1e-7};
     auto const normal = HertzTsuji{}(pair, at);
@@ -213,7 +212,7 @@ TYPED_TEST(EveryRollingLaw, is_finite_in_the_plane_and_exactly_opposite_for_the_
 TEST(MindlinRescaled, lets_the_spring_fall_with_the_stiffness_and_gains_nothing_by_unloading_first)
 {
     // Slip while pressed, unload to a quarter of the overlap, slip back: the spring holds half of what it held.
-    Pair<double> const pair{.youngs_modulus = 1e7, .shear_modulus = 3e6, .sliding_friction = 10};
+    Pair<double> const pair{.youngs_modulus = 1e7, .tangential = Ratio(1.2), .sliding_friction = 10};
     Approach<double> at{.overlap = 4e-5, .radius = 1e-3, .mass = 1e-6, .inertia = 1.4e-12, .speed = 0, .step = 1e-6};
     Memory summed{}, rescaled{};
     double stored = 0, stiffness = 0;
@@ -235,7 +234,7 @@ TEST(MindlinRescaled, lets_the_spring_fall_with_the_stiffness_and_gains_nothing_
 TEST(EpsdDashpot, adds_its_viscous_torque_below_the_limit_only)
 {
     Pair<double> const pair{
-        .youngs_modulus = 1e7, .shear_modulus = 3e6, .rolling_friction = 0.05, .rolling_damping = 0.3};
+        .youngs_modulus = 1e7, .tangential = Ratio(1.2), .rolling_friction = 0.05, .rolling_damping = 0.3};
     Approach<double> const at{
         .overlap = 1e-5, .radius = 1e-3, .mass = 1e-6, .inertia = 1.4e-12, .speed = 0, .step = 1e-9};
     auto const normal = HertzTsuji{}(pair, at);

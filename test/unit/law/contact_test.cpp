@@ -81,7 +81,7 @@ TEST(HertzTsuji, never_pulls_when_the_pull_is_cut)
 
 TEST(Mindlin, limits_spring_and_dashpot_together_and_leaves_the_spring_at_the_limit)
 {
-    Pair<double> const pair{.youngs_modulus = 1e7, .shear_modulus = 3e6, .damping = 0.3, .sliding_friction = 0.4};
+    Pair<double> const pair{.youngs_modulus = 1e7, .tangential = Ratio(1.2), .damping = 0.3, .sliding_friction = 0.4};
     Approach<double> const at{
         .overlap = 1e-5, .radius = 1e-3, .mass = 1e-6, .inertia = 1.4e-12, .speed = 0, .step = 1e-6};
     auto const normal = HertzTsuji{}(pair, at);
@@ -105,11 +105,11 @@ TEST(Mindlin, turns_the_slip_with_the_contact_without_changing_its_length)
 TEST(Epsd, builds_torque_against_the_rolling_up_to_the_limit)
 {
     Pair<double> const pair{
-        .youngs_modulus = 1e7, .shear_modulus = 3e6, .sliding_friction = 0.4, .rolling_friction = 0.05};
+        .youngs_modulus = 1e7, .tangential = Ratio(1.2), .sliding_friction = 0.4, .rolling_friction = 0.05};
     Approach<double> const at{
         .overlap = 1e-5, .radius = 1e-3, .mass = 1e-6, .inertia = 1.4e-12, .speed = 0, .step = 1e-7};
     auto const normal = HertzTsuji{}(pair, at);
-    double const stiffness = 8 * pair.shear_modulus * std::sqrt(at.overlap * at.radius);
+    double const stiffness = 8 * 3e6 * std::sqrt(at.overlap * at.radius);
     std::array<double, 3> spring{};
     auto torque = Epsd{}(pair, at, normal, Vec{0, 0, 1}, Vec{0, 2, 5}, spring.data()).torque;
     EXPECT_NEAR(torque.y / (-stiffness * 1e-6 * 2 * 1e-7), 1, 1e-12);

@@ -3,6 +3,7 @@
 #include "granum/dem/kernel/lanes.hpp"
 
 #include <array>
+#include <type_traits>
 
 namespace granum::dem::GRANUM_KERNEL
 {
@@ -13,15 +14,14 @@ using law::contact::Approach;
 using law::contact::Pair;
 using math::Triple;
 
+// A granule of each lane.
 struct Partner
 {
     Triple<Lanes> position, velocity, spin;
     Lanes radius, inverse_mass, rounder;
-    std::uint32_t const* rows;
     Addresses body;
 
-    HWY_INLINE Partner(Body const* bodies, std::uint32_t const* which)
-        : rows(which), body(const_cast<double*>(bodies->position), sizeof(Body), which)
+    HWY_INLINE Partner(Body* bodies, std::uint32_t const* places) : body{bodies->position, places}
     {
         Lanes quad[4];
         gather_quads(body, 0, quad);
@@ -30,19 +30,41 @@ struct Partner
     HWY_INLINE void look()
     {
         Lanes quad[4];
+        body.forget();
         gather_quads(body, 4, quad);
         velocity = {quad[0], quad[1], quad[2]}, inverse_mass = quad[3];
         gather_quads(body, 8, quad);
         spin = {quad[0], quad[1], quad[2]}, rounder = quad[3];
     }
-    // Adds to the sums of these rows, in multiples of their quanta.
-    HWY_INLINE void give(Sum* sums, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
+};
+
+// Where the answer for a granule of each lane goes: to its force and torque, in multiples of their quanta.
+struct Recipient
+{
+    std::uint32_t const* places;
+    Lanes lever, force_rounder, torque_rounder;
+
+    HWY_INLINE void set(Partner const& granule, Lanes arm)
+    {
+        places = granule.body.distance;
+        lever = arm;
+        force_rounder = granule.rounder;
+        torque_rounder = granule.rounder * power_of_two_below(granule.radius);
+    }
+    HWY_INLINE void give(Body* bodies, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
     {
         auto const rounded = [](Triple<Lanes> const& a, Lanes by) {
             return Triple<Lanes>{(a.x + by) - by, (a.y + by) - by, (a.z + by) - by};
         };
-        add_pulls(Addresses(sums->force, sizeof(Sum), rows), rounded(force, rounder),
-                  rounded(torque, rounder * power_of_two_below(radius)));
+        add_pulls({bodies->force, places}, rounded(force, force_rounder), rounded(torque, torque_rounder));
+    }
+    // Subtracts instead.
+    HWY_INLINE void take(Body* bodies, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
+    {
+        auto const rounded = [](Triple<Lanes> const& a, Lanes by) {
+            return Triple<Lanes>{by - (a.x + by), by - (a.y + by), by - (a.z + by)};
+        };
+        add_pulls({bodies->force, places}, rounded(force, force_rounder), rounded(torque, torque_rounder));
     }
 };
 
@@ -52,101 +74,83 @@ HWY_INLINE Lanes inverse_inertia(Partner const& granule)
     return granule.inverse_mass * reciprocal(Lanes(1.4) * granule.radius * granule.radius);
 }
 
-HWY_INLINE Triple<Lanes> kept(Mask m, Triple<Lanes> const& a)
+HWY_INLINE Triple<Both> kept(BothMask m, Triple<Both> const& a)
 {
-    Lanes const zero = 0.0;
+    Both const zero = 0.0;
     return {select(m, a.x, zero), select(m, a.y, zero), select(m, a.z, zero)};
 }
 
-// What the laws need about each lane's pairing of materials.
-class Pairings
+HWY_INLINE void put(Triple<Both>& to, std::size_t seat, Triple<Lanes> const& what)
 {
-  public:
-    HWY_INLINE explicit Pairings(Rules const& rules, std::uint8_t const* material) : rules_(rules), material_(material)
-    {
-        std::size_t const all[width] = {};
-        common_ = mix(all);
-    }
-    HWY_INLINE Pair<Lanes> const& operator()(std::uint32_t const* low, std::uint32_t const* high)
-    {
-        if (material_ == nullptr) return common_;
-        std::size_t which[width];
-        for (std::size_t lane = 0; lane < width; ++lane)
-            which[lane] = material_[low[lane]] * rules_.materials + material_[high[lane]];
-        return mix(which);
-    }
-    HWY_INLINE Pair<Lanes> const& with_walls(std::uint32_t const* rows, std::uint8_t const* walls)
-    {
-        std::size_t which[width];
-        for (std::size_t lane = 0; lane < width; ++lane)
-            which[lane] = (material_ ? material_[rows[lane]] : 0) * rules_.materials + walls[lane];
-        return mix(which);
-    }
-
-  private:
-    HWY_INLINE Pair<Lanes> const& mix(std::size_t const* which)
-    {
-        static_assert(sizeof(Pair<double>) == Pair<double>::size * sizeof(double));
-        alignas(64) double values[width];
-        std::size_t at = 0;
-        mixed_.visit([&](Lanes& member) {
-            for (std::size_t lane = 0; lane < width; ++lane)
-                values[lane] = reinterpret_cast<double const*>(rules_.pairs + which[lane])[at];
-            member = load(values);
-            ++at;
-        });
-        return mixed_;
-    }
-    Rules const& rules_;
-    std::uint8_t const* material_;
-    Pair<Lanes> common_, mixed_;
-};
+    to.x.part(seat) = what.x, to.y.part(seat) = what.y, to.z.part(seat) = what.z;
+}
+HWY_INLINE Triple<Lanes> get(Triple<Both>& from, std::size_t seat)
+{
+    return {from.x.part(seat), from.y.part(seat), from.z.part(seat)};
+}
 
 // One, or one half where another rank owns a partner and counts the other.
-HWY_INLINE Lanes shares(std::uint32_t const* low, std::uint32_t const* high, std::size_t owned)
+HWY_INLINE Lanes shares(std::uint32_t const* low, std::uint32_t const* high, std::uint32_t owned)
 {
     alignas(64) double share[width];
     for (std::size_t lane = 0; lane < width; ++lane) share[lane] = low[lane] < owned && high[lane] < owned ? 1.0 : 0.5;
     return load(share);
 }
 
-// One contact per lane on its way to the laws and back. It goes through memory, so that only the laws themselves, and
-// not the loops around them, are compiled for each of their combinations.
+// Two registers of contacts on their way to the laws and back. They go through memory, so that only the laws
+// themselves, and not the loops around them, are compiled for each of their combinations; two, because what one
+// computes is a long chain, of which every link waits for the one before.
 struct Staged
 {
-    Pair<Lanes> const* pair;
-    Approach<Lanes> at;
-    Triple<Lanes> n, velocity, spin;  // of the first partner against the second, at the contact
-    Mask touch;
-    double* history;
+    Pair<Both> pair;
+    Approach<Both> at;
+    Triple<Both> n, velocity, spin;  // of the first partner against the second, at the contact
+    BothMask touch;
+    double* history[2];
     // Answers, on the first partner:
-    Triple<Lanes> force, tangential, rolling;
-    Lanes dissipated, elastic;
+    Triple<Both> force, tangential, rolling;
+    Both dissipated, elastic;
+    alignas(64) double nothing[16 * block] = {};  // history of an empty seat
+
+    // A seat where nobody sits copies the other.
+    HWY_INLINE void leave_second_empty()
+    {
+        auto const copy = [](Both& both) { both.b = both.a; };
+        pair.visit(copy);
+        for (auto* number : {&at.overlap, &at.radius, &at.mass, &at.inverse_mass, &at.inertia, &at.speed})
+            copy(*number);
+        for (auto* vector : {&n, &velocity, &spin}) copy(vector->x), copy(vector->y), copy(vector->z);
+        touch.b = touch.a & !touch.a;
+        history[1] = nothing;
+    }
 };
 
 template <class Normal, class Tangential, class Rolling, bool Ledger>
 HWY_FLATTEN void laws_of(Rules const& rules, Staged& contact)
 {
     constexpr std::size_t columns = Tangential::history + Rolling::history + (Ledger ? 2 : 0);
+    static_assert(columns <= 16);
     auto const& normal_law = *static_cast<Normal const*>(rules.normal);
     auto const& tangential_law = *static_cast<Tangential const*>(rules.tangential);
     auto const& rolling_law = *static_cast<Rolling const*>(rules.rolling);
-    auto const& pair = *contact.pair;
+    auto const& pair = contact.pair;
     auto const at = contact.at;
     auto const n = contact.n;
-    Lanes history[columns + 1];
-    for (std::size_t c = 0; c < columns; ++c) history[c] = load(contact.history + c * block);
-    Lanes stiffness = 0.0, stored = 0.0;
+    Both history[columns + 1];
+    for (std::size_t c = 0; c < columns; ++c)
+        history[c] = {load(contact.history[0] + c * block), load(contact.history[1] + c * block)};
+    Both stiffness = 0.0, stored = 0.0;
     if constexpr (Ledger) stiffness = history[columns - 2];
     auto const normal = normal_law(pair, at);
-    auto const slide = tangential_law(pair, at, normal, n, contact.velocity - at.speed * n, history, stored, stiffness);
+    auto const slide =
+        tangential_law(pair, at, normal, n, neg_mul_add(at.speed, n, contact.velocity), history, stored, stiffness);
     auto const roll = rolling_law(pair, at, normal, n, contact.spin, history + Tangential::history);
     contact.tangential = kept(contact.touch, slide.force);
     contact.rolling = kept(contact.touch, roll.torque);
     contact.force = kept(contact.touch, mul_add(normal.force, n, slide.force));
     if constexpr (Ledger) {
         // The speed at the end of the step, where the force is: half a step more of this contact's acceleration.
-        Lanes const speed = at.speed + Lanes(0.5) * at.step * normal.force * at.inverse_mass;
+        Both const speed = at.speed + Both(0.5) * at.step * normal.force * at.inverse_mass;
         stored += roll.energy;
         contact.dissipated =
             (normal.elastic - normal.force) * speed * at.step + slide.work + roll.work + history[columns - 1] - stored;
@@ -154,9 +158,57 @@ HWY_FLATTEN void laws_of(Rules const& rules, Staged& contact)
         history[columns - 2] = stiffness, history[columns - 1] = stored;
     }
     Lanes const zero = 0.0;
-    for (std::size_t c = 0; c < columns; ++c)
-        store(select(contact.touch, history[c], zero), contact.history + c * block);
+    for (std::size_t c = 0; c < columns; ++c) {
+        store(select(contact.touch.a, history[c].a, zero), contact.history[0] + c * block);
+        store(select(contact.touch.b, history[c].b, zero), contact.history[1] + c * block);
+    }
 }
+
+// What the laws need about each lane's pairing of materials.
+class Pairings
+{
+  public:
+    HWY_INLINE Pairings(Rules const& rules, std::uint8_t const* material, std::size_t common, Pair<Both>& to)
+        : rules_(rules), material_(material), to_(to)
+    {
+        std::size_t all[width];
+        for (auto& which : all) which = common;
+        mix(all, 0);
+        mix(all, 1);
+    }
+    HWY_INLINE void set(std::size_t seat, std::uint32_t const* low, std::uint32_t const* high)
+    {
+        if (material_ == nullptr) return;
+        std::size_t which[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+            which[lane] = material_[row_of(low[lane])] * rules_.materials + material_[row_of(high[lane])];
+        mix(which, seat);
+    }
+    HWY_INLINE void set_with_walls(std::size_t seat, std::uint32_t const* granules, std::uint8_t const* walls)
+    {
+        std::size_t which[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+            which[lane] = (material_ ? material_[row_of(granules[lane])] : 0) * rules_.materials + walls[lane];
+        mix(which, seat);
+    }
+
+  private:
+    HWY_INLINE void mix(std::size_t const* which, std::size_t seat)
+    {
+        static_assert(sizeof(Pair<double>) == Pair<double>::size * sizeof(double));
+        alignas(64) double values[width];
+        std::size_t at = 0;
+        to_.visit([&](Both& member) {
+            for (std::size_t lane = 0; lane < width; ++lane)
+                values[lane] = reinterpret_cast<double const*>(rules_.pairs + which[lane])[at];
+            member.part(seat) = load(values);
+            ++at;
+        });
+    }
+    Rules const& rules_;
+    std::uint8_t const* material_;
+    Pair<Both>& to_;
+};
 
 using law::contact::NormalLaws;
 using law::contact::RollingLaws;
@@ -185,6 +237,18 @@ Laws chosen(Rules const& rules)
         (rules.normal_index * TangentialLaws::size + rules.tangential_index) * RollingLaws::size + rules.rolling_index;
     return combinations[2 * place + (rules.ledger ? 1 : 0)];
 }
+
+HWY_INLINE Triple<Lanes> nearest_image(Triple<Lanes> const& apart, Images const& images)
+{
+    auto const along = [&images](Lanes difference, std::size_t d) {
+        Lanes const length = images.length[d], half = images.half[d];
+        return difference - select(difference > half, length, select(difference < -half, -length, Lanes(0.0)));
+    };
+    return {along(apart.x, 0), along(apart.y, 1), along(apart.z, 2)};
+}
+
+using first = std::integral_constant<std::size_t, 0>;
+using second = std::integral_constant<std::size_t, 1>;
 
 // What a pass adds up.
 struct Energy
@@ -220,10 +284,11 @@ struct Tally
     {
         dissipated.add(select(over, share * load(stored), Lanes(0.0)), coarse_by, fine_by);
     }
-    HWY_INLINE void energies(Staged const& contact, Lanes share)
+    HWY_INLINE void energies(Staged& contact, std::size_t seat, Lanes share)
     {
-        dissipated.add(select(contact.touch, share * contact.dissipated, Lanes(0.0)), coarse_by, fine_by);
-        elastic.add(select(contact.touch, share * contact.elastic, Lanes(0.0)), coarse_by, fine_by);
+        Mask const touch = seat == 0 ? contact.touch.a : contact.touch.b;
+        dissipated.add(select(touch, share * contact.dissipated.part(seat), Lanes(0.0)), coarse_by, fine_by);
+        elastic.add(select(touch, share * contact.elastic.part(seat), Lanes(0.0)), coarse_by, fine_by);
     }
     void tell(Seen& seen) const
     {
@@ -249,34 +314,44 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
     Rules const& rules = *in.rules;
     auto const laws = chosen(rules);
     std::size_t const columns = rules.columns;
-    Pairings pairings(rules, in.material);
     Lanes const shift = rules.lever_shift;
     Tally tally(rules, seen);
     Staged contact;
     contact.at.step = in.dt;
     contact.at.inertia = 1.0;
+    Pairings pairings(rules, in.material, in.pairing, contact.pair);
+    struct
+    {
+        Recipient low, high;
+    } waiting[2];
+    std::size_t seat = 0;
+    auto const take_up = [&](auto constant) {
+        constexpr std::size_t k = decltype(constant)::value;
+        auto const& [low, high] = waiting[k];
+        auto const force = get(contact.force, k), rolling = get(contact.rolling, k);
+        Triple<Lanes> const turn = cross(get(contact.n, k), get(contact.tangential, k));
+        low.give(in.bodies, force, neg_mul_add(low.lever, turn, rolling));
+        high.take(in.bodies, force, mul_add(high.lever, turn, rolling));
+        if (rules.ledger) tally.energies(contact, k, shares(low.places, high.places, place_of(in.owned)));
+    };
     for (std::size_t b = 0; b < in.blocks; ++b) {
         unsigned const before = in.touching[b];
         unsigned now = 0;
         for (std::size_t s = 0; s < block; s += width) {
-            auto const* rows_low = in.pairs[b].low + s;
-            auto const* rows_high = in.pairs[b].high + s;
+            auto const* places_low = in.pairs[b].low + s;
+            auto const* places_high = in.pairs[b].high + s;
             double* const history = in.history + b * columns * block + s;
-            Partner low(in.bodies, rows_low), high(in.bodies, rows_high);
+            Partner low(in.bodies, places_low), high(in.bodies, places_high);
             Triple<Lanes> apart = low.position - high.position;
-            if (in.image != nullptr) {
-                alignas(64) double by[3][block];
-                for (std::size_t lane = 0; lane < width; ++lane)
-                    for (std::size_t d = 0; d < 3; ++d) by[d][lane] = in.shifts[in.image[b * block + s + lane]][d];
-                apart = apart + Triple<Lanes>{load(by[0]), load(by[1]), load(by[2])};
-            }
+            if (in.images.any) apart = nearest_image(apart, in.images);
             // Rounded as in the plain loops to the last bit: the overlap is what little is left of the distance.
             Lanes const distance2 = apart.x * apart.x + (apart.y * apart.y + apart.z * apart.z);
             Lanes const reach = low.radius + high.radius;
             Mask const touch = distance2 < reach * reach;
             unsigned const bits = touch.bits();
             if (rules.ledger && (before >> s & ~bits & ((1u << width) - 1)) != 0)
-                tally.ended(!touch, shares(rows_low, rows_high, in.owned), history + (columns - 1) * block);
+                tally.ended(!touch, shares(places_low, places_high, place_of(in.owned)),
+                            history + (columns - 1) * block);
             if (bits == 0) {
                 forget(before >> s, history, columns);
                 continue;
@@ -292,31 +367,38 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
             Lanes const overlap = select(touch, reach - distance, Lanes(1e-3) * smaller);
             tally.overlap(touch, overlap, smaller);
             Lanes const lever_low = low.radius - shift * overlap, lever_high = high.radius - shift * overlap;
-            Triple<Lanes> const velocity =
-                low.velocity - high.velocity - cross(lever_low * low.spin + lever_high * high.spin, n);
+            Triple<Lanes> const turning = mul_add(lever_low, low.spin, lever_high * high.spin);
+            Triple<Lanes> const velocity = minus_cross(low.velocity - high.velocity, turning, n);
             // 1/(a b) gives both quotients with one division.
             Lanes const inverse_mass = low.inverse_mass + high.inverse_mass;
             Lanes const inverse_both = reciprocal(reach * inverse_mass);
-            contact.pair = &pairings(rows_low, rows_high);
-            contact.at.overlap = overlap;
-            contact.at.radius = low.radius * high.radius * (inverse_both * inverse_mass);
-            contact.at.mass = inverse_both * reach;
-            contact.at.inverse_mass = inverse_mass;
-            if (rules.inertia) contact.at.inertia = reciprocal(inverse_inertia(low) + inverse_inertia(high));
-            contact.at.speed = dot(velocity, n);
-            contact.n = n;
-            contact.velocity = velocity;
-            contact.spin = low.spin - high.spin;
-            contact.touch = touch;
-            contact.history = history;
-            laws(rules, contact);
-
-            Triple<Lanes> const turn = cross(n, contact.tangential);
-            low.give(in.sums, contact.force, contact.rolling - lever_low * turn);
-            high.give(in.sums, -contact.force, -contact.rolling - lever_high * turn);
-            if (rules.ledger) tally.energies(contact, shares(rows_low, rows_high, in.owned));
+            pairings.set(seat, places_low, places_high);
+            auto& at = contact.at;
+            at.overlap.part(seat) = overlap;
+            at.radius.part(seat) = low.radius * high.radius * (inverse_both * inverse_mass);
+            at.mass.part(seat) = inverse_both * reach;
+            at.inverse_mass.part(seat) = inverse_mass;
+            if (rules.inertia) at.inertia.part(seat) = reciprocal(inverse_inertia(low) + inverse_inertia(high));
+            at.speed.part(seat) = dot(velocity, n);
+            put(contact.n, seat, n);
+            put(contact.velocity, seat, velocity);
+            put(contact.spin, seat, low.spin - high.spin);
+            (seat == 0 ? contact.touch.a : contact.touch.b) = touch;
+            contact.history[seat] = history;
+            waiting[seat].low.set(low, lever_low);
+            waiting[seat].high.set(high, lever_high);
+            if (++seat == 2) {
+                laws(rules, contact);
+                take_up(first{}), take_up(second{});
+                seat = 0;
+            }
         }
         in.touching[b] = static_cast<std::uint8_t>(now);
+    }
+    if (seat == 1) {
+        contact.leave_second_empty();
+        laws(rules, contact);
+        take_up(first{});
     }
     tally.tell(seen);
 }
@@ -326,17 +408,34 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
     Rules const& rules = *in.rules;
     auto const laws = chosen(rules);
     std::size_t const columns = rules.columns;
-    Pairings pairings(rules, in.material);
     Lanes const zero = 0.0, shift = rules.lever_shift;
     Tally tally(rules, seen);
     Staged contact;
     contact.at.step = in.dt;
     contact.at.inertia = 1.0;
+    Pairings pairings(rules, in.material, 0, contact.pair);
     auto const triple = [](double const* const* from, std::size_t place) {
         return Triple<Lanes>{load(from[0] + place), load(from[1] + place), load(from[2] + place)};
     };
     auto const keep = [](Triple<Lanes> const& what, double* const* to, std::size_t place) {
         store(what.x, to[0] + place), store(what.y, to[1] + place), store(what.z, to[2] + place);
+    };
+    struct
+    {
+        Recipient granule;
+        std::size_t place;
+    } waiting[2];
+    std::size_t seat = 0;
+    auto const take_up = [&](auto constant) {
+        constexpr std::size_t k = decltype(constant)::value;
+        auto const& [granule, place] = waiting[k];
+        auto const force = get(contact.force, k);
+        Triple<Lanes> const turn = cross(get(contact.n, k), get(contact.tangential, k));
+        Triple<Lanes> const torque = neg_mul_add(granule.lever, turn, get(contact.rolling, k));
+        granule.give(in.bodies, force, torque);
+        keep(force, in.force, place);
+        keep(torque, in.torque, place);
+        if (rules.ledger) tally.energies(contact, k, Lanes(1.0));
     };
     for (std::size_t b = 0; b < in.blocks; ++b) {
         unsigned const before = in.touching[b];
@@ -357,35 +456,41 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
             }
             now |= bits << s;
             tally.contacts += __builtin_popcount(bits);
-            Partner granule(in.bodies, in.row + place);
+            Partner granule(in.bodies, in.granule + place);
             granule.look();
             Triple<Lanes> const n = triple(in.normal, place);
             overlap = select(touch, overlap, Lanes(1e-3) * granule.radius);
             tally.overlap(touch, overlap, granule.radius);
             Lanes const lever = granule.radius - shift * overlap;
             Triple<Lanes> const velocity =
-                granule.velocity - triple(in.velocity, place) - lever * cross(granule.spin, n);
-            contact.pair = &pairings.with_walls(in.row + place, in.wall_material + place);
-            contact.at.overlap = overlap;
-            contact.at.radius = granule.radius;
-            contact.at.mass = reciprocal(granule.inverse_mass);
-            contact.at.inverse_mass = granule.inverse_mass;
-            if (rules.inertia) contact.at.inertia = reciprocal(inverse_inertia(granule));
-            contact.at.speed = dot(velocity, n);
-            contact.n = n;
-            contact.velocity = velocity;
-            contact.spin = granule.spin - triple(in.spin, place);
-            contact.touch = touch;
-            contact.history = history;
-            laws(rules, contact);
-
-            Triple<Lanes> const torque = contact.rolling - lever * cross(n, contact.tangential);
-            granule.give(in.sums, contact.force, torque);
-            keep(contact.force, in.force, place);
-            keep(torque, in.torque, place);
-            if (rules.ledger) tally.energies(contact, Lanes(1.0));
+                minus_cross(granule.velocity - triple(in.velocity, place), lever * granule.spin, n);
+            pairings.set_with_walls(seat, in.granule + place, in.wall_material + place);
+            auto& at = contact.at;
+            at.overlap.part(seat) = overlap;
+            at.radius.part(seat) = granule.radius;
+            at.mass.part(seat) = reciprocal(granule.inverse_mass);
+            at.inverse_mass.part(seat) = granule.inverse_mass;
+            if (rules.inertia) at.inertia.part(seat) = reciprocal(inverse_inertia(granule));
+            at.speed.part(seat) = dot(velocity, n);
+            put(contact.n, seat, n);
+            put(contact.velocity, seat, velocity);
+            put(contact.spin, seat, granule.spin - triple(in.spin, place));
+            (seat == 0 ? contact.touch.a : contact.touch.b) = touch;
+            contact.history[seat] = history;
+            waiting[seat].granule.set(granule, lever);
+            waiting[seat].place = place;
+            if (++seat == 2) {
+                laws(rules, contact);
+                take_up(first{}), take_up(second{});
+                seat = 0;
+            }
         }
         in.touching[b] = static_cast<std::uint8_t>(now);
+    }
+    if (seat == 1) {
+        contact.leave_second_empty();
+        laws(rules, contact);
+        take_up(first{});
     }
     tally.tell(seen);
 }
@@ -393,17 +498,13 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
 void look(Look& in, Span const* spans, std::size_t count)
 {
     Lanes const x = in.at[0], y = in.at[1], z = in.at[2], own = in.own_radius, skin = in.skin, close = in.close;
-    bool const periodic = in.length[0] + in.length[1] + in.length[2] > 0;
-    auto const shortest = [&in](Lanes difference, std::size_t d) {
-        Lanes const length = in.length[d], half = in.half[d];
-        return difference - select(difference > half, length, select(difference < -half, -length, Lanes(0.0)));
-    };
     std::size_t near = 0, far = 0;
     for (std::size_t s = 0; s < count; ++s)
         for (std::size_t k = spans[s].begin; k < spans[s].end; k += width) {
-            Lanes dx = x - load_anywhere(in.x + k), dy = y - load_anywhere(in.y + k), dz = z - load_anywhere(in.z + k);
-            if (periodic) dx = shortest(dx, 0), dy = shortest(dy, 1), dz = shortest(dz, 2);
-            Lanes const distance2 = dx * dx + (dy * dy + dz * dz), reach = own + load_anywhere(in.radius + k);
+            Triple<Lanes> apart{x - load_anywhere(in.x + k), y - load_anywhere(in.y + k), z - load_anywhere(in.z + k)};
+            if (in.images.any) apart = nearest_image(apart, in.images);
+            Lanes const distance2 = apart.x * apart.x + (apart.y * apart.y + apart.z * apart.z),
+                        reach = own + load_anywhere(in.radius + k);
             Lanes const limit = reach + skin, nearly = reach + close;
             unsigned found = (distance2 < limit * limit).bits();
             if (spans[s].end - k < width) found &= (1u << (spans[s].end - k)) - 1;
@@ -437,11 +538,10 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
         auto fastest = none, odd = none;
         for (std::size_t row = 0; row < in.rows; ++row) {
             Body& body = in.bodies[row];
-            Sum& sum = in.sums[row];
-            auto const acceleration = hn::MulAdd(hn::Load(d, sum.force + c), hn::Set(d, body.inverse_mass), gravity);
+            auto const acceleration = hn::MulAdd(hn::Load(d, body.force + c), hn::Set(d, body.inverse_mass), gravity);
             auto const turning = hn::Set(d, in.half * 2.5 * body.inverse_mass / (body.radius * body.radius));
             auto velocity = hn::Load(d, body.velocity + c), spin = hn::Load(d, body.spin + c);
-            auto const torque = hn::Load(d, sum.torque + c);
+            auto const torque = hn::Load(d, body.torque + c);
             for (int kick = 0; kick < Kicks; ++kick) {
                 velocity = hn::MulAdd(half, acceleration, velocity);
                 spin = hn::MulAdd(turning, torque, spin);
@@ -454,7 +554,7 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
                 odd = hn::MulAdd(hn::Add(square, spin), none, odd);  // zero as long as all is finite
             }
             hn::Store(velocity, d, body.velocity + c);
-            if (in.clear) hn::Store(none, d, sum.force + c), hn::Store(none, d, sum.torque + c);
+            if (in.clear) hn::Store(none, d, body.force + c), hn::Store(none, d, body.torque + c);
         }
         if constexpr (Drifts) {
             alignas(32) double each[4], miss[4];

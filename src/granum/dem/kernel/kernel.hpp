@@ -1,7 +1,7 @@
 // The inner loops of the granule engine, compiled once for each instruction set and chosen when the program starts.
 //
-// What they work on is laid out for them, not for reading: one row of 96 bytes per granule with all that a contact asks
-// for, one row of 64 bytes that collects its forces, and blocks of eight contacts whose histories stand side by side.
+// What they work on is laid out for them, not for reading: one row of 192 bytes per granule with all that a contact
+// asks for and its forces, and blocks of eight contacts whose histories stand side by side.
 //
 // Sums do not depend on their order. Every contribution to a force is rounded to a multiple of the granule's quantum, a
 // power of two small enough not to matter and large enough that the sums have no rounding of their own: so neither the
@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -20,22 +21,30 @@ namespace granum::dem::kernel
 {
 //! A granule as contacts see it: m, m/s, 1/kg, rad/s. `rounder` is 1.5 * 2^52 times the quantum of its force, N: adding
 //! and subtracting it rounds to a multiple of the quantum.
-struct alignas(32) Body
+struct alignas(64) Body
 {
     double position[3], radius;
     double velocity[3], inverse_mass;
     double spin[3], rounder;
+    double built[3], built_radius;  //!< where it was, and how large, when the neighbour list was made
+    double force[4], torque[4];     //!< of its contacts, N and N m; the fourth numbers stay zero
 };
 
-//! Force (N) and torque (N m) of the contacts of a granule; the fourth numbers stay zero.
-struct alignas(64) Sum
+//! A row as contacts name it: the distance of its first number from that of row 0, so that an address is one addition.
+inline constexpr std::uint32_t stride = sizeof(Body) / sizeof(double);
+inline std::uint32_t place_of(std::size_t row)
 {
-    double force[4], torque[4];
-};
+    return static_cast<std::uint32_t>(row) * stride;
+}
+inline std::uint32_t row_of(std::uint32_t place)
+{
+    return place / stride;
+}
 
 inline constexpr std::size_t block = 8;  // contacts that share a block, whatever the width of a register
 
-//! Rows of the partners with the lower and with the higher id. An unfilled place holds two rows that never meet.
+//! Places (place_of) of the partners with the lower and with the higher id. Where there is no pair stand two that never
+//! meet.
 struct alignas(64) PairBlock
 {
     std::uint32_t low[block], high[block];
@@ -66,16 +75,25 @@ struct Seen
     double dissipated = 0, elastic = 0;  //!< J: in this step; stored now
 };
 
+//! The lengths of a periodic domain, m: a difference beyond half a length is shortened by one. Where it is not
+//! periodic, zero and infinite.
+struct Images
+{
+    bool any = false;
+    double length[3]{}, half[3]{infinite, infinite, infinite};
+
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
 struct PairPass
 {
     Rules const* rules;
-    Body const* bodies;
-    std::uint8_t const* material;  //!< of each row; null where all are material 0
-    Sum* sums;
+    Body* bodies;
+    std::uint8_t const* material;  //!< of each row; null where all are one
+    std::size_t pairing;           //!< the one of all pairs then
     std::size_t blocks;
     PairBlock const* pairs;
-    std::uint8_t const* image;  //!< per contact: which `shifts` to add to low - high; null where no domain is periodic
-    double const (*shifts)[3];
+    Images images;
     double* history;         //!< [blocks][columns][block]
     std::uint8_t* touching;  //!< one bit per contact
     std::size_t owned;       //!< rows from here on belong to other ranks
@@ -86,11 +104,10 @@ struct PairPass
 struct WallPass
 {
     Rules const* rules;
-    Body const* bodies;
+    Body* bodies;
     std::uint8_t const* material;
-    Sum* sums;
     std::size_t blocks;
-    std::uint32_t const* row;
+    std::uint32_t const* granule;  //!< its place
     std::uint8_t const* wall_material;
     double const* overlap;      //!< m; not above zero: no touch
     double const* normal[3];    //!< to the granule
@@ -107,13 +124,12 @@ struct WallPass
 struct Motion
 {
     Body* bodies;
-    Sum* sums;
     std::size_t rows;
     double gravity[3];
     double half;   //!< s, of one kick
     double drift;  //!< s
     int kicks;     //!< 0, 1 or 2
-    bool clear;    //!< sets the sums to zero behind it
+    bool clear;    //!< sets forces and torques to zero behind it
 };
 struct MotionSeen
 {
@@ -133,8 +149,7 @@ struct Look
 {
     double const *x, *y, *z, *radius;
     double at[3], own_radius, skin, close;  //!< m
-    double length[3], half[3];  //!< of the domain, m: a difference beyond half a length is shortened by one; where it
-                                //!< is not periodic, zero and infinite
+    Images images;
     std::uint32_t *near, *far;  //!< room for all places of the spans
     std::size_t near_count, far_count;
 };

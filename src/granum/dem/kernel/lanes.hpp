@@ -69,6 +69,14 @@ HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c)
 {
     return hn::MulAdd(a.v, b.v, c.v);
 }
+HWY_INLINE Lanes mul_sub(Lanes a, Lanes b, Lanes c)
+{
+    return hn::MulSub(a.v, b.v, c.v);
+}
+HWY_INLINE Lanes neg_mul_add(Lanes a, Lanes b, Lanes c)
+{
+    return hn::NegMulAdd(a.v, b.v, c.v);
+}
 HWY_INLINE Lanes max(Lanes a, Lanes b)
 {
     return hn::Max(a.v, b.v);
@@ -122,9 +130,16 @@ HWY_INLINE Lanes reciprocal(Lanes a)
 HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
 {
     Lanes const r = Register{_mm512_rsqrt14_pd(a.v.raw)}, miss = missing(a * r, r);
-    Lanes series = mul_add(Lanes(35.0 / 128), miss, Lanes(5.0 / 16));
-    series = mul_add(series, miss, Lanes(3.0 / 8));
-    series = mul_add(series, miss, Lanes(0.5));
+    Lanes const series = mul_add(mul_add(Lanes(5.0 / 16), miss, Lanes(3.0 / 8)), miss, Lanes(0.5));
+    return mul_add(series, r * miss, r);
+}
+HWY_INLINE Lanes inverse_fourth_root(Lanes a)
+{
+    Lanes const half = Register{_mm512_rsqrt14_pd(a.v.raw)};
+    Lanes const r = half * Lanes(Register{_mm512_rsqrt14_pd(half.v.raw)}), square = r * r,
+                miss = missing(a * square, square);
+    Lanes series = mul_add(Lanes(195.0 / 2048), miss, Lanes(15.0 / 128));
+    series = mul_add(mul_add(series, miss, Lanes(5.0 / 32)), miss, Lanes(0.25));
     return mul_add(series, r * miss, r);
 }
 HWY_INLINE Lanes sqrt(Lanes a)
@@ -146,6 +161,10 @@ HWY_INLINE Lanes reciprocal_sqrt(Lanes a)
 {
     return Lanes(1.0) / sqrt(a);
 }
+HWY_INLINE Lanes inverse_fourth_root(Lanes a)
+{
+    return Lanes(1.0) / sqrt(sqrt(a));
+}
 #endif
 
 HWY_INLINE Lanes exact_sqrt(Lanes a)
@@ -158,15 +177,95 @@ HWY_INLINE Lanes power_of_two_below(Lanes a)
     return hn::BitCast(Tag(), hn::And(hn::BitCast(bits, a.v), hn::Set(bits, 0x7FF0000000000000u)));
 }
 
-// Where rows begin that are `stride` bytes long: addresses of `width` of them.
+// Two registers of contacts that know nothing of each other: where one waits for a result, the other goes on.
+struct BothMask
+{
+    Mask a, b;
+    HWY_INLINE friend BothMask operator&(BothMask m, BothMask n) { return {m.a & n.a, m.b & n.b}; }
+    HWY_INLINE friend BothMask operator|(BothMask m, BothMask n) { return {m.a | n.a, m.b | n.b}; }
+    HWY_INLINE friend BothMask operator!(BothMask m) { return {!m.a, !m.b}; }
+};
+
+struct Both
+{
+    Lanes a, b;
+
+    Both() = default;
+    HWY_INLINE Both(double all) : a(all), b(a) {}
+    HWY_INLINE Both(Lanes one, Lanes other) : a(one), b(other) {}
+    HWY_INLINE Lanes& part(std::size_t which) { return which == 0 ? a : b; }
+
+    HWY_INLINE friend Both operator+(Both x, Both y) { return {x.a + y.a, x.b + y.b}; }
+    HWY_INLINE friend Both operator-(Both x, Both y) { return {x.a - y.a, x.b - y.b}; }
+    HWY_INLINE friend Both operator*(Both x, Both y) { return {x.a * y.a, x.b * y.b}; }
+    HWY_INLINE friend Both operator/(Both x, Both y) { return {x.a / y.a, x.b / y.b}; }
+    HWY_INLINE friend Both operator-(Both x) { return {-x.a, -x.b}; }
+    HWY_INLINE Both& operator+=(Both y) { return *this = *this + y; }
+    HWY_INLINE friend BothMask operator<(Both x, Both y) { return {x.a < y.a, x.b < y.b}; }
+    HWY_INLINE friend BothMask operator>(Both x, Both y) { return {x.a > y.a, x.b > y.b}; }
+    HWY_INLINE friend BothMask operator<=(Both x, Both y) { return {x.a <= y.a, x.b <= y.b}; }
+    HWY_INLINE friend BothMask operator>=(Both x, Both y) { return {x.a >= y.a, x.b >= y.b}; }
+};
+
+HWY_INLINE Both mul_add(Both x, Both y, Both z)
+{
+    return {mul_add(x.a, y.a, z.a), mul_add(x.b, y.b, z.b)};
+}
+HWY_INLINE Both mul_sub(Both x, Both y, Both z)
+{
+    return {mul_sub(x.a, y.a, z.a), mul_sub(x.b, y.b, z.b)};
+}
+HWY_INLINE Both neg_mul_add(Both x, Both y, Both z)
+{
+    return {neg_mul_add(x.a, y.a, z.a), neg_mul_add(x.b, y.b, z.b)};
+}
+HWY_INLINE Both max(Both x, Both y)
+{
+    return {max(x.a, y.a), max(x.b, y.b)};
+}
+HWY_INLINE Both min(Both x, Both y)
+{
+    return {min(x.a, y.a), min(x.b, y.b)};
+}
+HWY_INLINE Both abs(Both x)
+{
+    return {abs(x.a), abs(x.b)};
+}
+HWY_INLINE bool any(BothMask m)
+{
+    return any(m.a | m.b);
+}
+HWY_INLINE Both select(BothMask m, Both x, Both y)
+{
+    return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
+HWY_INLINE Both reciprocal(Both x)
+{
+    return {reciprocal(x.a), reciprocal(x.b)};
+}
+HWY_INLINE Both sqrt(Both x)
+{
+    return {sqrt(x.a), sqrt(x.b)};
+}
+HWY_INLINE Both reciprocal_sqrt(Both x)
+{
+    return {reciprocal_sqrt(x.a), reciprocal_sqrt(x.b)};
+}
+HWY_INLINE Both inverse_fourth_root(Both x)
+{
+    return {inverse_fourth_root(x.a), inverse_fourth_root(x.b)};
+}
+
+// Numbers of `width` rows, each at its own distance from `base`.
 struct Addresses
 {
-    alignas(64) double* at[width];
+    double* base;
+    std::uint32_t const* distance;
 
-    HWY_INLINE Addresses(double* base, std::size_t stride, std::uint32_t const* rows)
-    {
-        for (std::size_t lane = 0; lane < width; ++lane) at[lane] = base + stride / sizeof(double) * rows[lane];
-    }
+    HWY_INLINE double* at(std::size_t lane) const { return base + distance[lane]; }
+    // Makes the compiler read the distances again: more addresses than registers would be kept in places dearer than
+    // the memory that they come from.
+    HWY_INLINE void forget() { __asm__("" : "+r"(distance)); }
 };
 
 // Four numbers of `width` rows: out[k] holds the k-th numbers behind `offset` of the rows.
@@ -174,8 +273,8 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
 {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     auto const both = [&](std::size_t k) {
-        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows.at[k] + offset)),
-                                  _mm256_load_pd(rows.at[k + 4] + offset), 1);
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows.at(k) + offset)),
+                                  _mm256_load_pd(rows.at(k + 4) + offset), 1);
     };
     __m512d const r0 = both(0), r1 = both(1), r2 = both(2), r3 = both(3);
     __m512d const xz0 = _mm512_unpacklo_pd(r0, r1), yw0 = _mm512_unpackhi_pd(r0, r1);
@@ -188,8 +287,8 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
     out[3] = Register{_mm512_permutex2var_pd(yw0, high, yw1)};
 #elif HWY_TARGET == HWY_AVX2
     Tag const d;
-    auto const r0 = hn::Load(d, rows.at[0] + offset), r1 = hn::Load(d, rows.at[1] + offset);
-    auto const r2 = hn::Load(d, rows.at[2] + offset), r3 = hn::Load(d, rows.at[3] + offset);
+    auto const r0 = hn::Load(d, rows.at(0) + offset), r1 = hn::Load(d, rows.at(1) + offset);
+    auto const r2 = hn::Load(d, rows.at(2) + offset), r3 = hn::Load(d, rows.at(3) + offset);
     auto const xz0 = hn::InterleaveLower(d, r0, r1), yw0 = hn::InterleaveUpper(d, r0, r1);
     auto const xz1 = hn::InterleaveLower(d, r2, r3), yw1 = hn::InterleaveUpper(d, r2, r3);
     out[0] = hn::ConcatLowerLower(d, xz1, xz0), out[1] = hn::ConcatLowerLower(d, yw1, yw0);
@@ -197,7 +296,7 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
 #else
     alignas(64) double values[4][8];
     for (std::size_t lane = 0; lane < width; ++lane)
-        for (std::size_t k = 0; k < 4; ++k) values[k][lane] = rows.at[lane][offset + k];
+        for (std::size_t k = 0; k < 4; ++k) values[k][lane] = rows.at(lane)[offset + k];
     for (std::size_t k = 0; k < 4; ++k) out[k] = load(values[k]);
 #endif
 }
@@ -222,7 +321,7 @@ HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Tri
     turned(force, f);
     turned(torque, t);
     auto const add = [&](std::size_t lane, __m512d what) {
-        _mm512_store_pd(rows.at[lane], _mm512_add_pd(_mm512_load_pd(rows.at[lane]), what));
+        _mm512_store_pd(rows.at(lane), _mm512_add_pd(_mm512_load_pd(rows.at(lane)), what));
     };
     for (std::size_t k = 0; k < 4; ++k) add(k, _mm512_insertf64x4(f[k], _mm512_castpd512_pd256(t[k]), 1));
     for (std::size_t k = 0; k < 4; ++k) add(k + 4, _mm512_shuffle_f64x2(f[k], t[k], 0xEE));
@@ -233,7 +332,7 @@ HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Tri
         auto const xy0 = hn::InterleaveLower(d, in.x.v, in.y.v), xy1 = hn::InterleaveUpper(d, in.x.v, in.y.v);
         auto const z0 = hn::InterleaveLower(d, in.z.v, zero), z1 = hn::InterleaveUpper(d, in.z.v, zero);
         auto const one = [&](std::size_t lane, Register what) {
-            hn::Store(hn::Add(hn::Load(d, rows.at[lane] + offset), what), d, rows.at[lane] + offset);
+            hn::Store(hn::Add(hn::Load(d, rows.at(lane) + offset), what), d, rows.at(lane) + offset);
         };
         one(0, hn::ConcatLowerLower(d, z0, xy0)), one(1, hn::ConcatLowerLower(d, z1, xy1));
         one(2, hn::ConcatUpperUpper(d, z0, xy0)), one(3, hn::ConcatUpperUpper(d, z1, xy1));
@@ -245,7 +344,7 @@ HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Tri
     store(force.x, values[0]), store(force.y, values[1]), store(force.z, values[2]);
     store(torque.x, values[3]), store(torque.y, values[4]), store(torque.z, values[5]);
     for (std::size_t lane = 0; lane < width; ++lane)
-        for (std::size_t k = 0; k < 6; ++k) rows.at[lane][k < 3 ? k : k + 1] += values[k][lane];
+        for (std::size_t k = 0; k < 6; ++k) rows.at(lane)[k < 3 ? k : k + 1] += values[k][lane];
 #endif
 }
 }

@@ -24,10 +24,19 @@ void add(double* to, Vector const& what, double rounder)
     for (std::size_t d = 0; d < 3; ++d) to[d] += (each[d] + rounder) - rounder;
 }
 
-void give(Sum& sum, Body const& body, Vector const& force, Vector const& torque)
+void give(Body& body, Vector const& force, Vector const& torque)
 {
-    add(sum.force, force, body.rounder);
-    add(sum.torque, torque, body.rounder * power_of_two_below(body.radius));
+    add(body.force, force, body.rounder);
+    add(body.torque, torque, body.rounder * power_of_two_below(body.radius));
+}
+
+Vector nearest_image(Vector const& apart, Images const& images)
+{
+    auto const along = [&images](double difference, std::size_t d) {
+        double const length = images.length[d], half = images.half[d];
+        return difference - (difference > half ? length : difference < -half ? -length : 0);
+    };
+    return {along(apart.x, 0), along(apart.y, 1), along(apart.z, 2)};
 }
 
 double surface_inertia(Body const& body)
@@ -76,13 +85,13 @@ void pair_pass(PairPass const& in, Seen& seen)
     Rules const& rules = *in.rules;
     for (std::size_t b = 0; b < in.blocks; ++b)
         for (std::size_t lane = 0; lane < block; ++lane) {
-            auto const i = in.pairs[b].low[lane], j = in.pairs[b].high[lane];
-            Body const &low = in.bodies[i], &high = in.bodies[j];
+            auto const i = row_of(in.pairs[b].low[lane]), j = row_of(in.pairs[b].high[lane]);
+            Body &low = in.bodies[i], &high = in.bodies[j];
             double* const kept = in.history + b * rules.columns * block + lane;
             auto const bit = static_cast<std::uint8_t>(1u << lane);
             double const share = i < in.owned && j < in.owned ? 1.0 : 0.5;
             Vector apart = vector(low.position) - vector(high.position);
-            if (in.image != nullptr) apart = apart + vector(in.shifts[in.image[b * block + lane]]);
+            apart = nearest_image(apart, in.images);
             double const distance2 = norm2(apart), reach = low.radius + high.radius;
             if (!(distance2 < reach * reach)) {
                 if ((in.touching[b] & bit) != 0) end_contact(rules, kept, share, seen);
@@ -105,15 +114,15 @@ void pair_pass(PairPass const& in, Seen& seen)
                                       .inertia = inertia_low * inertia_high / (inertia_low + inertia_high),
                                       .speed = dot(velocity, n),
                                       .step = in.dt};
-            auto const pairing = in.material ? in.material[i] * rules.materials + in.material[j] : 0;
+            auto const pairing = in.material ? in.material[i] * rules.materials + in.material[j] : in.pairing;
             std::array<double, 16> history{};
             for (std::size_t c = 0; c < rules.columns; ++c) history[c] = kept[c * block];
             auto const out = laws<Normal, Tangential, Rolling>(rules, rules.pairs[pairing], at, n, velocity,
                                                                vector(low.spin) - vector(high.spin), history.data());
             for (std::size_t c = 0; c < rules.columns; ++c) kept[c * block] = history[c];
             Vector const turn = cross(n, out.tangential);
-            give(in.sums[i], low, out.force, out.rolling - lever_low * turn);
-            give(in.sums[j], high, -out.force, -out.rolling - lever_high * turn);
+            give(low, out.force, out.rolling - lever_low * turn);
+            give(high, -out.force, -out.rolling - lever_high * turn);
             seen.dissipated += share * out.dissipated;
             seen.elastic += share * out.elastic;
         }
@@ -136,8 +145,8 @@ void wall_pass(WallPass const& in, Seen& seen)
         }
         in.touching[b] = static_cast<std::uint8_t>(in.touching[b] | bit);
         ++seen.contacts;
-        auto const i = in.row[place];
-        Body const& body = in.bodies[i];
+        auto const i = row_of(in.granule[place]);
+        Body& body = in.bodies[i];
         auto const wall = [place](double const* const* from) {
             return Vector{from[0][place], from[1][place], from[2][place]};
         };
@@ -158,7 +167,7 @@ void wall_pass(WallPass const& in, Seen& seen)
                                                            vector(body.spin) - wall(in.spin), history.data());
         for (std::size_t c = 0; c < rules.columns; ++c) kept[c * block] = history[c];
         Vector const torque = out.rolling - lever * cross(n, out.tangential);
-        give(in.sums[i], body, out.force, torque);
+        give(body, out.force, torque);
         in.force[0][place] = out.force.x, in.force[1][place] = out.force.y, in.force[2][place] = out.force.z;
         in.torque[0][place] = torque.x, in.torque[1][place] = torque.y, in.torque[2][place] = torque.z;
         seen.dissipated += out.dissipated;
@@ -201,19 +210,18 @@ void move(Motion const& in, MotionSeen& seen)
 {
     for (std::size_t row = 0; row < in.rows; ++row) {
         Body& body = in.bodies[row];
-        Sum& sum = in.sums[row];
         double const turning = in.half * 2.5 * body.inverse_mass / (body.radius * body.radius);
         double speed2 = 0;
         for (std::size_t d = 0; d < 3; ++d) {
-            double const acceleration = sum.force[d] * body.inverse_mass + in.gravity[d];
+            double const acceleration = body.force[d] * body.inverse_mass + in.gravity[d];
             for (int kick = 0; kick < in.kicks; ++kick) {
                 body.velocity[d] += in.half * acceleration;
-                body.spin[d] += turning * sum.torque[d];
+                body.spin[d] += turning * body.torque[d];
             }
             body.position[d] += in.drift * body.velocity[d];
             speed2 += body.velocity[d] * body.velocity[d];
             seen.finite = seen.finite && std::isfinite(body.velocity[d]) && std::isfinite(body.spin[d]);
-            if (in.clear) sum.force[d] = sum.torque[d] = 0;
+            if (in.clear) body.force[d] = body.torque[d] = 0;
         }
         seen.fastest2 = std::max(seen.fastest2, speed2);
     }
@@ -224,10 +232,8 @@ void look(Look& in, Span const* spans, std::size_t count)
     in.near_count = in.far_count = 0;
     for (std::size_t s = 0; s < count; ++s)
         for (std::uint32_t k = spans[s].begin; k < spans[s].end; ++k) {
-            double apart[3] = {in.at[0] - in.x[k], in.at[1] - in.y[k], in.at[2] - in.z[k]};
-            for (std::size_t d = 0; d < 3; ++d)
-                apart[d] -= apart[d] > in.half[d] ? in.length[d] : apart[d] < -in.half[d] ? -in.length[d] : 0;
-            double const distance2 = apart[0] * apart[0] + (apart[1] * apart[1] + apart[2] * apart[2]);
+            Vector const apart = nearest_image({in.at[0] - in.x[k], in.at[1] - in.y[k], in.at[2] - in.z[k]}, in.images);
+            double const distance2 = norm2(apart);
             double const reach = in.own_radius + in.radius[k], limit = reach + in.skin, nearly = reach + in.close;
             if (distance2 < nearly * nearly)
                 in.near[in.near_count++] = k;

@@ -3,6 +3,7 @@
 
 #include "granum/base/type_list.hpp"
 #include "granum/law/contact/dashpot.hpp"
+#include "granum/law/contact/hertz.hpp"
 
 #include <cmath>
 
@@ -24,13 +25,12 @@ struct HertzTsuji
     template <class Real>
     NormalForce<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at) const
     {
-        Real const contact_radius = sqrt(at.radius * at.overlap);
-        Real const elastic = Real(4.0 / 3.0) * pair.youngs_modulus * contact_radius * at.overlap;
-        Real damped_radius = contact_radius;
-        if (any(just_touched(at))) damped_radius = sqrt(at.radius * damped_overlap(at));
-        Real const coefficient = Real(2) * pair.damping * sqrt(Real(2) * pair.youngs_modulus * at.mass * damped_radius);
-        return {spring_and_dashpot(at, elastic, coefficient, 1.25, attraction), elastic,
-                Real(0.4) * elastic * at.overlap, Real(8) * pair.shear_modulus * contact_radius};
+        auto const slope = hertz_slope(pair, at, at.overlap);
+        Real const elastic = Real(2.0 / 3.0) * slope.stiffness * at.overlap;
+        Real damped = slope.impedance;
+        if (any(just_touched(at))) damped = hertz_slope(pair, at, damped_overlap(at)).impedance;
+        Real const force = spring_and_dashpot(at, elastic, Real(2) * pair.damping * damped, 1.25, attraction);
+        return normal_force(pair, force, elastic, Real(0.4) * elastic * at.overlap, slope);
     }
 };
 }

@@ -6,7 +6,8 @@
 
 namespace granum::law::contact
 {
-//! F = k_n overlap - c speed, c = 2 g sqrt(k_n m*); k_t is constant. Stiffnesses are those of the pair of materials.
+//! F = k_n overlap - c speed, c = 2 g sqrt(k_n m*); k_t is a share of k_n. Stiffnesses are those of the pair of
+//! materials.
 struct Linear
 {
     static constexpr base::Card card{
@@ -25,9 +26,10 @@ struct Linear
     NormalForce<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at) const
     {
         Real const elastic = pair.stiffness * at.overlap;
-        Real const coefficient = Real(2) * pair.damping * sqrt(pair.stiffness * at.mass);
-        return {spring_and_dashpot(at, elastic, coefficient, 1, attraction), elastic, Real(0.5) * elastic * at.overlap,
-                pair.tangential_stiffness};
+        Slope<Real> const slope{pair.stiffness, reciprocal(max(pair.stiffness, Real(tiny))),
+                                sqrt(pair.stiffness * at.mass)};
+        Real const force = spring_and_dashpot(at, elastic, Real(2) * pair.damping * slope.impedance, 1, attraction);
+        return normal_force(pair, force, elastic, Real(0.5) * elastic * at.overlap, slope);
     }
 };
 }

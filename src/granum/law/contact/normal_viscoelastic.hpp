@@ -3,6 +3,7 @@
 
 #include "granum/base/type_list.hpp"
 #include "granum/law/contact/dashpot.hpp"
+#include "granum/law/contact/hertz.hpp"
 
 #include <cmath>
 
@@ -32,12 +33,12 @@ struct HertzViscoelastic
     template <class Real>
     NormalForce<Real> operator()(Pair<Real> const& pair, Approach<Real> const& at) const
     {
-        Real const contact_radius = sqrt(at.radius * at.overlap);
-        Real const elastic = Real(4.0 / 3.0) * pair.youngs_modulus * contact_radius * at.overlap;
-        Real const coefficient =
-            Real(2) * pair.dissipation_time * pair.youngs_modulus * sqrt(at.radius * damped_overlap(at));
-        return {spring_and_dashpot(at, elastic, coefficient, 1.5, attraction), elastic,
-                Real(0.4) * elastic * at.overlap, Real(8) * pair.shear_modulus * contact_radius};
+        auto const slope = hertz_slope(pair, at, at.overlap);
+        Real const elastic = Real(2.0 / 3.0) * slope.stiffness * at.overlap;
+        Real damped = slope.stiffness;
+        if (any(just_touched(at))) damped = hertz_slope(pair, at, damped_overlap(at)).stiffness;
+        Real const force = spring_and_dashpot(at, elastic, pair.dissipation_time * damped, 1.5, attraction);
+        return normal_force(pair, force, elastic, Real(0.4) * elastic * at.overlap, slope);
     }
 };
 }

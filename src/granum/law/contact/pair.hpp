@@ -6,43 +6,56 @@
 
 #include "granum/math/triple.hpp"
 
+#include <cmath>
+
 namespace granum::law::contact
 {
 using math::abs;
 using math::any;
+using math::inverse_fourth_root;
 using math::max;
 using math::min;
 using math::mul_add;
+using math::neg_mul_add;
 using math::reciprocal;
 using math::reciprocal_sqrt;
 using math::select;
 using math::sqrt;
 using math::Triple;
 
+//! Tangential over normal stiffness, with what laws would have to compute from it again and again.
+template <class Real = double>
+struct Ratio
+{
+    Real value{}, root{}, inverse{};
+
+    Ratio() = default;
+    explicit Ratio(double ratio) : value(ratio), root(std::sqrt(ratio)), inverse(ratio > 0 ? 1 / ratio : 0) {}
+};
+
 //! Effective properties of two materials that touch.
 template <class Real = double>
 struct Pair
 {
-    Real youngs_modulus{};        //!< E*, Pa
-    Real shear_modulus{};         //!< G*, Pa
-    Real damping{};               //!< g of the normal dashpot, chosen by the normal law for the restitution, 1
-    Real tangential_damping{};    //!< g_t of the tangential dashpot c_t = 2 g_t sqrt(k_t m*), 1
-    Real sliding_friction{};      //!< 1
-    Real rolling_friction{};      //!< 1
-    Real rolling_damping{};       //!< eta_r of the rolling dashpot, 1
-    Real stiffness{};             //!< k_n of the linear spring, N/m
-    Real tangential_stiffness{};  //!< k_t that goes with the linear spring, N/m
-    Real dissipation_time{};      //!< A of the viscoelastic law, s
+    Real youngs_modulus{};      //!< E*, Pa
+    Ratio<Real> tangential{};   //!< k_t / k_n at any overlap: 4 G* / E* of elastic spheres
+    Real damping{};             //!< g of the normal dashpot, chosen by the normal law for the restitution, 1
+    Real tangential_damping{};  //!< g_t of the tangential dashpot c_t = 2 g_t sqrt(k_t m*), 1
+    Real sliding_friction{};    //!< 1
+    Real rolling_friction{};    //!< 1
+    Real rolling_damping{};     //!< eta_r of the rolling dashpot, 1
+    Real stiffness{};           //!< k_n of the linear spring, N/m
+    Real dissipation_time{};    //!< A of the viscoelastic law, s
 
-    static constexpr int size = 10;
+    static constexpr int size = 11;
 
     //! Calls `what` with a reference to each member, always in this order: a table of pairs is read generically.
     template <class What>
     void visit(What&& what)
     {
-        what(youngs_modulus), what(shear_modulus), what(damping), what(tangential_damping), what(sliding_friction);
-        what(rolling_friction), what(rolling_damping), what(stiffness), what(tangential_stiffness);
-        what(dissipation_time);
+        what(youngs_modulus), what(tangential.value), what(tangential.root), what(tangential.inverse);
+        what(damping), what(tangential_damping), what(sliding_friction), what(rolling_friction);
+        what(rolling_damping), what(stiffness), what(dissipation_time);
     }
 };
 
@@ -63,11 +76,35 @@ struct Approach
 template <class Real>
 struct NormalForce
 {
-    Real force;                 //!< N, positive pushes apart
-    Real elastic;               //!< its conservative part, N
-    Real energy;                //!< stored elastically, J
-    Real tangential_stiffness;  //!< k_t at this overlap, N/m
+    Real force;                  //!< N, positive pushes apart
+    Real elastic;                //!< its conservative part, N
+    Real energy;                 //!< stored elastically, J
+    Real tangential_stiffness;   //!< k_t at this overlap, N/m
+    Real tangential_compliance;  //!< 1 / k_t, m/N; finite where k_t is zero
+    Real tangential_impedance;   //!< sqrt(k_t m*), N s/m
 };
+
+//! Slope of the normal force over the overlap, and what dashpots and tangential springs derive from it.
+template <class Real>
+struct Slope
+{
+    Real stiffness;   //!< k_n, N/m
+    Real compliance;  //!< 1 / k_n, m/N
+    Real impedance;   //!< sqrt(k_n m*), N s/m
+};
+
+//! The answer of a normal law that pushes with `force`, of it `elastic` conservative with `energy`, and has this slope.
+template <class Real>
+NormalForce<Real> normal_force(Pair<Real> const& pair, Real force, Real elastic, Real energy, Slope<Real> const& slope)
+{
+    auto const& ratio = pair.tangential;
+    return {force,
+            elastic,
+            energy,
+            ratio.value * slope.stiffness,
+            ratio.inverse * slope.compliance,
+            ratio.root * slope.impedance};
+}
 
 //! Answer of a tangential law.
 template <class Real>
@@ -93,8 +130,9 @@ inline constexpr double tiny = 1e-300;
 template <class Real>
 Triple<Real> turned_into_plane(Triple<Real> const& history, Triple<Real> const& n)
 {
-    Triple<Real> const flat = mul_add(-dot(history, n), n, history);
-    Real const flat2 = norm2(flat), whole2 = norm2(history), product = flat2 * whole2;
+    Real const along = dot(history, n);
+    Triple<Real> const flat = neg_mul_add(along, n, history);
+    Real const flat2 = norm2(flat), whole2 = mul_add(along, along, flat2), product = flat2 * whole2;
     Real const scale = whole2 * reciprocal_sqrt(max(product, Real(tiny)));
     return select(product > Real(tiny), scale, Real(0)) * flat;
 }

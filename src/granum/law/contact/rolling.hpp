@@ -24,9 +24,9 @@ struct Epsd
     {
         Real const limit = pair.rolling_friction * at.radius * max(normal.force, Real(0));
         Real const stiffness = normal.tangential_stiffness * at.radius * at.radius;
-        Triple<Real> const rolling = mul_add(-dot(relative_spin, n), n, relative_spin);
+        Triple<Real> const rolling = neg_mul_add(dot(relative_spin, n), n, relative_spin);
         Triple<Real> const before = turned_into_plane(Triple<Real>{spring[0], spring[1], spring[2]}, n);
-        Triple<Real> const trial = mul_add(-stiffness * at.step, rolling, before);
+        Triple<Real> const trial = neg_mul_add(stiffness * at.step, rolling, before);
         Triple<Real> const torque = shortening(limit, norm2(trial)) * trial;
         spring[0] = torque.x, spring[1] = torque.y, spring[2] = torque.z;
         return {torque, Real(0.5) * norm2(torque) * reciprocal(max(stiffness, Real(tiny))),
@@ -59,7 +59,7 @@ struct EpsdDashpot
         auto const below = norm2(elastic.torque) < Real(1 - 2e-9) * limit * limit;
         Real const coefficient = lagged(Real(2) * pair.rolling_damping * sqrt(at.inertia * stiffness),
                                         Real(0.5) * at.step * reciprocal(at.inertia));
-        Triple<Real> const rolling = mul_add(-dot(relative_spin, n), n, relative_spin);
+        Triple<Real> const rolling = neg_mul_add(dot(relative_spin, n), n, relative_spin);
         Triple<Real> const torque = mul_add(select(below, -coefficient, Real(0)), rolling, elastic.torque);
         // The spin at the end of the step, half a step of this torque later.
         Real const later = Real(0.5) * at.step * reciprocal(at.inertia);

@@ -16,10 +16,10 @@ TangentialForce<Real> summed_force(Pair<Real> const& pair, Approach<Real> const&
                                    Real& stiffness_before)
 {
     Real const stiffness = normal.tangential_stiffness;
-    Real const later = Real(half_step_of_surface) * at.step * reciprocal(at.mass);
-    Real const viscous = lagged(Real(2) * pair.tangential_damping * sqrt(stiffness * at.mass), later);
-    Triple<Real> const after = mul_add(-stiffness * at.step, velocity, before);
-    Triple<Real> const trial = mul_add(-viscous, velocity, after);
+    Real const later = Real(half_step_of_surface) * at.step * at.inverse_mass;
+    Real const viscous = lagged(Real(2) * pair.tangential_damping * normal.tangential_impedance, later);
+    Triple<Real> const after = neg_mul_add(stiffness * at.step, velocity, before);
+    Triple<Real> const trial = neg_mul_add(viscous, velocity, after);
     Real const limit = pair.sliding_friction * max(normal.force, Real(0));
     Real const size2 = norm2(trial);
     auto const sticks = size2 <= limit * limit;
@@ -31,7 +31,7 @@ TangentialForce<Real> summed_force(Pair<Real> const& pair, Approach<Real> const&
     Real const viscous_work = viscous * mul_add(later, dot(velocity, force), norm2(velocity));
     Real const sticking = at.step * mul_add(Real(-0.5), dot(before + after, velocity), viscous_work);
     Real const sliding = Real(-0.5) * at.step * dot(before + force, velocity);
-    stored = Real(0.5) * norm2(Triple<Real>{spring[0], spring[1], spring[2]}) * reciprocal(max(stiffness, Real(tiny)));
+    stored = Real(0.5) * norm2(Triple<Real>{spring[0], spring[1], spring[2]}) * normal.tangential_compliance;
     stiffness_before = stiffness;
     return {force, select(sticks, sticking, sliding)};
 }
