@@ -81,16 +81,16 @@ scene::Scene collapse()
 }
 
 // A dense periodic box without walls, sheared: velocity along y and x grows with z and y.
-scene::Scene shear()
+scene::Scene shear(int columns = 10)
 {
     scene::Scene scene({1e7, 0.25, density}, {.restitution = 0.6, .sliding_friction = 0.4, .rolling_friction = 0.05});
     scene.settings.lower = {};
-    scene.settings.upper = {0.048, 0.036, 0.03};
+    scene.settings.upper = {columns * 0.0048, 0.036, 0.03};
     scene.settings.periodic = {true, true, true};
     int id = 0;
     for (int k = 0; k < 6; ++k)
         for (int j = 0; j < 7; ++j)
-            for (int i = 0; i < 10; ++i, ++id) {
+            for (int i = 0; i < columns; ++i, ++id) {
                 base::Random random(1, base::Purpose::test, static_cast<std::uint64_t>(id), 0);
                 Vec3 const centre{(i + 0.5) * 0.0048, (j + 0.5) * 0.036 / 7, (k + 0.5) * 0.005};
                 Vec3 const at = centre + 3e-4 * Vec3{random.normal(), random.normal(), random.normal()};
@@ -168,6 +168,34 @@ TEST(Ranks, agree_with_one_rank_because_history_migrates)
     }
     // The energy that is lost is counted once per pair, however the pairs are split.
     EXPECT_NEAR(apart.comm.sum(apart.engine->watch().dissipated) / alone.engine->watch().dissipated, 1, 1e-6);
+}
+
+TEST(Ranks, have_the_bits_of_one_rank_across_periodic_faces_and_in_sweeps)
+{
+    constexpr int columns = 60;
+    auto apart = shear(columns), alone = shear(columns), slow = shear(columns);
+    share_out(apart, columns);
+    alone.slabs = slow.slabs = {.origin = 0, .width = columns * 0.0048, .periodic = true};
+    for (auto* scene : {&apart, &alone, &slow}) scene->prepare();
+    apart.run(400, 1e-5);
+    alone.run(400, 1e-5);
+    for (int step = 0; step < 400; ++step) slow.run(1, 1e-5);
+    EXPECT_GT(alone.engine->watch().sweeps, 20);
+    EXPECT_GT(apart.engine->watch().sweeps, 20);
+    EXPECT_EQ(slow.engine->watch().sweeps, 0);
+    EXPECT_EQ(alone.engine->watch().late_lists + apart.engine->watch().late_lists, 0);
+    EXPECT_GT(apart.engine->watch().rebuilds, 3);
+    auto const one = collect(alone), many = collect(apart), stepped = collect(slow);
+    ASSERT_EQ(many.size(), one.size());
+    long crossed = 0;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        EXPECT_EQ(std::memcmp(&one[k], &many[k], sizeof(State)), 0) << "granule " << k;
+        EXPECT_EQ(std::memcmp(&one[k], &stepped[k], sizeof(State)), 0) << "granule " << k;
+        auto const column = static_cast<double>(k % columns);
+        crossed += std::abs(one[k].position.x - (column + 0.5) * 0.0048) > 0.5 * columns * 0.0048;
+    }
+    EXPECT_GT(crossed, 20);
+    EXPECT_EQ(alone.engine->watch().dissipated, slow.engine->watch().dissipated);
 }
 
 // Something that belongs to granules: a number per id.

@@ -1,5 +1,6 @@
 #include "granum/base/error.hpp"
 #include "granum/dem/engine_inside.hpp"
+#include "granum/dem/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,7 @@ bool feels_gas(particle::Store const& granules)
 Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicator const& communicator)
     : settings(std::move(given)),
       domain{settings.lower, settings.upper, settings.periodic},
+      images(domain.images()),
       comm(communicator),
       halo(std::move(partition), communicator),
       kernel(settings.kernel.empty() ? kernel::kernels().front() : kernel::find_kernel(settings.kernel)),
@@ -84,7 +86,7 @@ void Engine::Inside::find_non_finite()
 
 void Engine::Inside::name_overlap()
 {
-    double worst = settings.stop_overlap;
+    double worst = 0;
     std::string who;
     for (std::size_t b = 0; b < pairs.blocks(); ++b)
         for (std::size_t lane = 0; lane < kernel::block; ++lane) {
@@ -118,38 +120,37 @@ Vec3 Engine::Inside::apart(std::uint32_t row, std::uint32_t other) const
     return out;
 }
 
-void Engine::Inside::forces(double dt)
+void Engine::Inside::forces(std::size_t layer, double dt, kernel::Seen& seen)
+{
+    pairs.run(layer, *kernel, rules, frame, images, dt, seen);
+    walls.run(layer, *kernel, rules, frame, dt, seen);
+}
+
+void Engine::Inside::all_forces(double dt)
 {
     auto const timing = stopwatch.time(Stage::contacts);
     kernel::Seen seen;
-    pairs.run(*kernel, rules, frame, domain, dt, seen);
-    walls.run(*kernel, rules, frame, dt, seen, comm);
+    for (std::size_t layer = 0; layer < layers.count(); ++layer) forces(layer, dt, seen);
+    finish_forces(dt, seen);
+}
+
+// When all layers have their forces of a step.
+void Engine::Inside::finish_forces(double dt, kernel::Seen const& seen)
+{
+    walls.finish(rules, frame, dt, comm);
     watch.largest_overlap = std::max(watch.largest_overlap, seen.largest_overlap);
     if (seen.largest_overlap > settings.warn_overlap) ++watch.warned_overlaps;
     watch.contacts = seen.contacts;
-    watch.dissipated += seen.dissipated + pairs.take_lost_energy() + walls.take_lost_energy();
-    watch.elastic = seen.elastic;
-    if (seen.largest_overlap > settings.stop_overlap) {
-        name_overlap();
-        if (comm.size() == 1) throw base::NumericsError(failure);
-    }
+    watch.dissipated += seen.dissipated.value() + pairs.take_lost_energy() + walls.take_lost_energy();
+    watch.elastic = seen.elastic.value();
+    if (seen.largest_overlap > settings.stop_overlap && failure.empty()) name_overlap();
+    stop_alone();
 }
 
-void Engine::Inside::kick_with_gas(particle::Store& granules, double half)
+// With several ranks a failure is thrown when all know of it.
+void Engine::Inside::stop_alone() const
 {
-    for (std::size_t row = 0; row < frame.owned; ++row) {
-        auto& body = frame.bodies[row];
-        double const rate = granules.drag_rate[row], mass = granules.mass[row];
-        Vec3 const& gas = granules.gas_velocity[row];
-        Vec3 const pull = (Frame::vec(body.force) + granules.gas_force[row]) * body.inverse_mass + settings.gravity;
-        Vec3 const velocity = (Frame::vec(body.velocity) + half * (pull + rate * gas)) * (1 / (1 + half * rate));
-        granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
-        double const turning = half * 2.5 * body.inverse_mass / (body.radius * body.radius);
-        for (std::size_t d = 0; d < 3; ++d) {
-            body.velocity[d] = velocity[d];
-            body.spin[d] += turning * body.torque[d];
-        }
-    }
+    if (comm.size() == 1 && !failure.empty()) throw base::NumericsError(failure);
 }
 
 double Engine::Inside::farthest() const
@@ -170,6 +171,7 @@ bool Engine::Inside::outgrown(double moved)
     } mine{moved, failure.empty() ? 0.0 : 1.0};
     if (comm.size() > 1) MPI_Allreduce(MPI_IN_PLACE, &mine, 2, MPI_DOUBLE, MPI_MAX, comm.handle());
     if (mine.failed > 0) agree_on_failure();
+    last_moved = mine.moved;
     travelled += mine.moved;
     double const free = std::max(0.0, 0.5 * skin - growth);
     if (travelled <= free) return false;
@@ -216,7 +218,7 @@ void Engine::prepare(particle::Store& granules)
     });
     resume(granules, known);
     for (auto& body : in.frame.bodies) std::fill_n(body.force, 8, 0.0);
-    in.forces(0);
+    in.all_forces(0);
     in.agree_on_failure();
     in.watch.wall_force = in.walls.force();
     in.frame.give(granules);
@@ -242,40 +244,28 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
         return;
     }
     in.frame.refresh(granules);
-    bool const gas = feels_gas(granules);
-    double const half = 0.5 * dt;
-    auto const move = [&](int kicks, double drift) {
-        auto const timing = in.stopwatch.time(Stage::contacts);
-        kernel::MotionSeen seen;
-        if (gas)
-            for (int kick = 0; kick < kicks; ++kick) in.kick_with_gas(granules, half);
-        kernel::Motion motion{.bodies = in.frame.bodies.data(),
-                              .rows = in.frame.owned,
-                              .gravity = {in.settings.gravity.x, in.settings.gravity.y, in.settings.gravity.z},
-                              .half = half,
-                              .drift = drift,
-                              .kicks = gas ? 0 : kicks,
-                              .clear = drift != 0};
-        if (!gas || drift != 0) in.kernel->move(motion, seen);
-        if (!seen.finite) in.find_non_finite();
-        if (drift != 0) in.frame.wrap(in.domain);
-        return std::sqrt(seen.fastest2) * drift;
-    };
-    for (int k = 0; k < steps; ++k) {
-        ++in.steps;
-        double const moved = move(k == 0 ? 1 : 2, dt);
-        if (in.comm.size() == 1 && !in.failure.empty()) throw base::NumericsError(in.failure);
-        in.time += dt;
-        in.walls.go_to(in.time, dt);
-        if (in.outgrown(moved) || in.walls.moved() > 0.5 * in.skin - in.growth) {
-            in.rebuild(granules);
-        } else if (in.comm.size() > 1) {
-            auto const timing = in.stopwatch.time(Stage::neighbours);
-            in.halo.refresh_motion(in.frame);
+    Inside::Motion const motion{granules, 0.5 * dt, feels_gas(granules)};
+    for (int k = 0; k < steps;) {
+        int const together = k == 0 ? 1 : in.steps_together(steps - k);
+        if (together > 1) {
+            in.sweep(motion, together);
+        } else {
+            ++in.steps;
+            double const moved = in.move_all(motion, k == 0 ? 1 : 2, true);
+            in.stop_alone();
+            in.time += dt;
+            in.walls.go_to(in.time, dt);
+            if (in.outgrown(moved) || in.walls.moved() > 0.5 * in.skin - in.growth) {
+                in.rebuild(granules);
+            } else if (in.comm.size() > 1) {
+                auto const timing = in.stopwatch.time(Stage::neighbours);
+                in.halo.refresh_motion(in.frame);
+            }
+            in.all_forces(dt);
         }
-        in.forces(dt);
+        k += together;
     }
-    move(1, 0);
+    in.move_all(motion, 1, false);
     in.watch.wall_force = in.walls.force();
     in.frame.give(granules);
 }

@@ -5,9 +5,11 @@
 // are exact. The impulse that the gas gave is summed in `drag_impulse`.
 //
 // Without gas a state has the same bits on any number of ranks, with any neighbour list, in any order of rows and after
-// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius and no granule crosses a
-// periodic face: it is brought back when the list is made anew, and that moment, which is not the same everywhere,
-// rounds its place.
+// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius and Watch::late_lists is 0.
+// Granules that leave a periodic domain come back at the other side in the same step.
+//
+// advance() does several steps in one sweep over the granules (layers.hpp) where no wall moves: a failure then stops
+// the run up to seven steps after the one that its message names.
 #pragma once
 
 #include "granum/base/timer.hpp"
@@ -50,6 +52,8 @@ struct Watch
     long warned_overlaps = 0;    //!< steps on which an overlap above the warning line appeared
     long rebuilds = 0;
     long rebalances = 0;
+    long sweeps = 0;        //!< of several steps each
+    long late_lists = 0;    //!< sweeps in which granules went farther than the list reaches
     long contacts = 0;      //!< pairs and walls touching at the last step, this rank
     double dissipated = 0;  //!< J lost in contacts, this rank; of a pair split over two ranks each counts one half
     double elastic = 0;     //!< J stored in contacts at the last step, this rank

@@ -12,6 +12,7 @@ struct Engine::Inside
 {
     Settings settings;
     Domain domain;
+    kernel::Images images;
     par::Communicator comm;
     Halo halo;
     kernel::Kernel const* kernel;
@@ -21,6 +22,7 @@ struct Engine::Inside
     Frame frame;
     NeighbourSearch search;
     Candidates candidates;
+    Layers layers;
     PairList pairs;
     WallContacts walls;
     double time = 0;  // s
@@ -34,7 +36,10 @@ struct Engine::Inside
     long steps = 0, built_step = 0;
     bool sorted = false;  // rows, at least once
     long unsorted_rebuilds = 0, unbalanced_rebuilds = 0;
-    std::string failure;  // seen on this rank, not yet told to the others
+    int most_together = 1;  // steps that one sweep over the layers may do; the same on all ranks
+    double last_moved = 0;  // at most, by any granule of any rank in the last step, m
+    double reserve = 2;     // a sweep is begun if the list will do for so many times as long
+    std::string failure;    // seen on this rank, not yet told to the others
 
     Inside(Settings given, par::Partition partition, par::Communicator const& communicator);
 
@@ -46,13 +51,23 @@ struct Engine::Inside
     std::vector<ContactRecord> contacts_of(std::vector<std::uint32_t> const& rows,
                                            std::span<ContactRecord const> saved) const;
 
+    // motion.cpp
+    struct Motion;
+    double move(Motion const& motion, std::size_t layer, int kicks, bool drifts);
+    double move_all(Motion const& motion, int kicks, bool drifts);
+    int steps_together(int left) const;
+    void sweep(Motion const& motion, int together);
+    void choose_most_together();
+
     // engine.cpp
     void agree_on_failure();
     void find_non_finite();
     void name_overlap();
+    void stop_alone() const;
     Vec3 apart(std::uint32_t row, std::uint32_t other) const;
-    void forces(double dt);
-    void kick_with_gas(particle::Store& granules, double half);
+    void forces(std::size_t layer, double dt, kernel::Seen& seen);
+    void all_forces(double dt);
+    void finish_forces(double dt, kernel::Seen const& seen);
     bool outgrown(double moved);
     double farthest() const;
     void hold_frozen(particle::Store& granules, double dt) const;

@@ -39,20 +39,17 @@ kernel::Images Domain::images() const
     return out;
 }
 
-void Frame::wrap(Domain const& domain)
+void Frame::wrap(Domain const& domain, std::size_t row)
 {
+    auto& body = bodies[row];
     for (std::size_t d = 0; d < 3; ++d) {
-        if (!domain.periodic[d]) continue;
         double const low = domain.lower[d], high = domain.upper[d], length = high - low;
-        for (std::size_t row = 0; row < owned; ++row) {
-            auto& body = bodies[row];
-            double& x = body.position[d];
-            if (x >= low && x < high) continue;
-            double const lengths = length * std::floor((x - low) / length);
-            x -= lengths;
-            if (!(x >= low && x < high)) x = low;  // rounding at the face
-            body.built[d] -= lengths;
-        }
+        double& x = body.position[d];
+        if (!domain.periodic[d] || (x >= low && x < high)) continue;
+        double const lengths = length * std::floor((x - low) / length);
+        x -= lengths;
+        if (!(x >= low && x < high)) x = low;  // rounding at the face
+        body.built[d] -= lengths;
     }
 }
 

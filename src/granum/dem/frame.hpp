@@ -47,8 +47,8 @@ struct Frame
     //! Makes room for rows behind the owned ones, up to `rows` in all, and closes the end.
     void resize(std::size_t rows);
 
-    //! Brings owned rows that left a periodic domain through one side back through the other.
-    void wrap(Domain const& domain);
+    //! Brings a row that left a periodic domain through one side back through the other.
+    void wrap(Domain const& domain, std::size_t row);
 
     static Vec3 vec(double const* from) { return {from[0], from[1], from[2]}; }
     Vec3 position(std::size_t row) const { return vec(bodies[row].position); }

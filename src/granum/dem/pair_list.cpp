@@ -1,80 +1,124 @@
 #include "granum/dem/pair_list.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace granum::dem
 {
 using kernel::block;
 
-void PairList::make(Frame const& frame, Candidates const& candidates,
+namespace
+{
+constexpr std::size_t nowhere = ~std::size_t{0};
+
+// Fills without ever holding the old and a larger new piece of memory at once.
+template <class Vector>
+void refill(Vector& numbers, std::size_t count, typename Vector::value_type const& value)
+{
+    if (count > numbers.capacity()) {
+        numbers = {};
+        numbers.reserve(count + count / 16);
+    }
+    numbers.assign(count, value);
+}
+}
+
+void PairList::make(Frame const& frame, Layers const& layers, Candidates& candidates,
                     std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before)
 {
-    auto const former_blocks = std::exchange(blocks_, {});
-    auto const former_history = std::exchange(history_, {});
-    auto const former_touching = std::exchange(touching_, {});
+    take_known(frame, row_now, owned_before);
     auto const* const material = frame.material.data();
     mixed_ = std::any_of(material, material + frame.rows(), [&](auto other) { return other != material[0]; });
-    near_begin_ = candidates.near_begin;
-    near_end_ = candidates.near_end;
-    pairs_ = candidates.near.size() + candidates.far.size();
-    std::size_t const near_blocks = (candidates.near.size() + block - 1) / block;
-    std::size_t const count = near_blocks + (candidates.far.size() + block - 1) / block;
-    blocks_.resize(count);
-    history_.assign(count * columns_ * block, 0.0);
-    touching_.assign(count, 0);
-    auto const place = [&](std::vector<PairRows> const& pairs, std::size_t first_block) {
-        std::size_t const padded = (pairs.size() + block - 1) / block * block;
-        for (std::size_t k = 0; k < padded; ++k) {
-            auto& to = blocks_[first_block + k / block];
-            bool const real = k < pairs.size();
-            to.low[k % block] = kernel::place_of(real ? pairs[k].low : frame.lonely());
-            to.high[k % block] = kernel::place_of(real ? pairs[k].high : frame.lonely() + 1);
-        }
-    };
-    place(candidates.near, 0);
-    place(candidates.far, near_blocks);
+    std::swap(candidates_, candidates);
+    auto const &near = candidates_.near, &far = candidates_.far;
+    pairs_ = near.size() + far.size();
 
-    for (std::size_t b = 0; b < former_blocks.size(); ++b)
-        for (std::size_t lane = 0; lane < block; ++lane) {
-            if ((former_touching[b] >> lane & 1) == 0) continue;
-            auto const low = kernel::row_of(former_blocks[b].low[lane]),
-                       high = kernel::row_of(former_blocks[b].high[lane]);
-            auto const low_now = row_now(low), high_now = row_now(high);
-            auto const* const from = former_history.data() + b * columns_ * block + lane;
-            std::size_t const to =
-                low_now < frame.rows() && high_now < frame.rows() ? find_near(low_now, high_now) : pairs_;
-            if (to == pairs_) {
-                // Ended, or gone to another rank, which has a copy.
-                bool const here = low_now < frame.owned || high_now < frame.owned;
-                double const share = low < owned_before && high < owned_before ? 1.0 : 0.5;
-                if (here && columns_ > 6) lost_energy_ += share * from[(columns_ - 1) * block];
-                continue;
+    std::size_t const count = layers.count();
+    near_next_.assign(count, 0);
+    far_next_.assign(count, 0);
+    for (auto const& pair : near) ++near_next_[layers.of(pair.low, pair.high)];
+    for (auto const& pair : far) ++far_next_[layers.of(pair.low, pair.high)];
+    layer_begin_.assign(1, 0);
+    for (std::size_t layer = 0; layer < count; ++layer) {
+        std::size_t const near_blocks = (near_next_[layer] + block - 1) / block,
+                          far_blocks = (far_next_[layer] + block - 1) / block, first = layer_begin_.back();
+        near_next_[layer] = static_cast<std::uint32_t>(first * block);
+        far_next_[layer] = static_cast<std::uint32_t>((first + near_blocks) * block);
+        layer_begin_.push_back(first + near_blocks + far_blocks);
+    }
+    std::size_t const blocks = layer_begin_.back();
+    kernel::PairBlock lonely;
+    std::fill_n(lonely.low, block, kernel::place_of(frame.lonely()));
+    std::fill_n(lonely.high, block, kernel::place_of(frame.lonely() + 1));
+    refill(blocks_, blocks, lonely);
+    refill(history_, blocks * columns_ * block, 0.0);
+    touching_.assign(blocks, 0);
+    auto const put = [&](PairRows const& pair, std::uint32_t place) {
+        auto& to = blocks_[place / block];
+        to.low[place % block] = kernel::place_of(pair.low);
+        to.high[place % block] = kernel::place_of(pair.high);
+        return place;
+    };
+    near_place_.resize(near.size());
+    for (std::size_t k = 0; k < near.size(); ++k)
+        near_place_[k] = put(near[k], near_next_[layers.of(near[k].low, near[k].high)]++);
+    for (auto const& pair : far) put(pair, far_next_[layers.of(pair.low, pair.high)]++);
+
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+        double const* const history = known_history_.data() + k * (columns_ + 1);
+        if (std::size_t const place = find_near(known_[k].low, known_[k].high); place != nowhere)
+            put_history(place, history);
+        else if (columns_ > 6)
+            lost_energy_ += history[columns_] * history[columns_ - 1];
+    }
+}
+
+// Takes the contacts out of the list, with the rows that their partners have now.
+void PairList::take_known(Frame const& frame, std::function<std::uint32_t(std::uint32_t)> const& row_now,
+                          std::size_t owned_before)
+{
+    known_.clear();
+    known_history_.clear();
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (unsigned touching = touching_[b]; touching != 0; touching &= touching - 1) {
+            auto const lane = static_cast<std::size_t>(std::countr_zero(touching));
+            auto const before_low = low(b, lane), before_high = high(b, lane);
+            auto const low_now = row_now(before_low), high_now = row_now(before_high);
+            // Energies of a pair that two ranks had are counted by halves.
+            double const share = before_low < owned_before && before_high < owned_before ? 1.0 : 0.5;
+            double const* const from = history_.data() + b * columns_ * block + lane;
+            if (low_now >= frame.owned && high_now >= frame.owned) continue;  // both gone to other ranks, with a copy
+            if (low_now < frame.rows() && high_now < frame.rows()) {
+                known_.push_back({low_now, high_now});
+                for (std::size_t c = 0; c < columns_; ++c) known_history_.push_back(from[c * block]);
+                known_history_.push_back(share);
+            } else if (columns_ > 6) {
+                lost_energy_ += share * from[(columns_ - 1) * block];
             }
-            double* const target = history_.data() + to / block * columns_ * block + to % block;
-            for (std::size_t c = 0; c < columns_; ++c) target[c * block] = from[c * block];
-            touching_[to / block] = static_cast<std::uint8_t>(touching_[to / block] | 1u << (to % block));
         }
+}
+
+void PairList::put_history(std::size_t place, double const* history)
+{
+    std::size_t const b = place / block, lane = place % block;
+    for (std::size_t c = 0; c < columns_; ++c) history_[(b * columns_ + c) * block + lane] = history[c];
+    touching_[b] = static_cast<std::uint8_t>(touching_[b] | 1u << lane);
 }
 
 std::size_t PairList::find_near(std::uint32_t row, std::uint32_t other) const
 {
-    auto const one = kernel::place_of(row), two = kernel::place_of(other);
+    auto const& near = candidates_.near;
     for (auto const finder : {row, other})
-        for (std::size_t k = near_begin_[finder]; k < near_end_[finder]; ++k) {
-            auto const& at = blocks_[k / block];
-            auto const low = at.low[k % block], high = at.high[k % block];
-            if ((low == one && high == two) || (low == two && high == one)) return k;
-        }
-    return pairs_;
+        for (std::size_t k = candidates_.near_begin[finder]; k < candidates_.near_end[finder]; ++k)
+            if ((near[k].low == row && near[k].high == other) || (near[k].low == other && near[k].high == row))
+                return near_place_[k];
+    return nowhere;
 }
 
 void PairList::set(std::uint32_t row, std::uint32_t other, History const& history)
 {
-    std::size_t const to = find_near(row, other);
-    if (to == pairs_) return;
-    for (std::size_t c = 0; c < columns_; ++c) history_[(to / block * columns_ + c) * block + to % block] = history[c];
-    touching_[to / block] = static_cast<std::uint8_t>(touching_[to / block] | 1u << (to % block));
+    if (std::size_t const place = find_near(row, other); place != nowhere) put_history(place, history.data());
 }
 
 History PairList::history(std::size_t b, std::size_t lane) const
@@ -91,22 +135,30 @@ double PairList::take_lost_energy()
 
 std::size_t PairList::bytes() const
 {
-    return blocks_.capacity() * sizeof(kernel::PairBlock) + history_.capacity() * sizeof(double) +
-           touching_.capacity() + 4 * (near_begin_.capacity() + near_end_.capacity());
+    return blocks_.capacity() * sizeof(kernel::PairBlock) + touching_.capacity() +
+           sizeof(double) * (history_.capacity() + known_history_.capacity()) +
+           sizeof(PairRows) * (candidates_.near.capacity() + candidates_.far.capacity() + known_.capacity()) +
+           4 * (candidates_.near_begin.capacity() + candidates_.near_end.capacity() + near_place_.capacity());
 }
 
-void PairList::run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain,
-                   double dt, kernel::Seen& seen)
+std::size_t PairList::bytes_of_step() const
 {
+    return blocks_.size() * (sizeof(kernel::PairBlock) + columns_ * block * sizeof(double) + 1);
+}
+
+void PairList::run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+                   kernel::Images const& images, double dt, kernel::Seen& seen)
+{
+    std::size_t const first = layer_begin_[layer];
     kernel.pairs({.rules = &rules,
                   .bodies = frame.bodies.data(),
                   .material = mixed_ ? frame.material.data() : nullptr,
-                  .pairing = frame.rows() > 0 ? frame.material[0] * (rules.materials + 1) : 0,
-                  .blocks = blocks_.size(),
-                  .pairs = blocks_.data(),
-                  .images = domain.images(),
-                  .history = history_.data(),
-                  .touching = touching_.data(),
+                  .pairing = frame.material[0] * (rules.materials + 1),
+                  .blocks = layer_begin_[layer + 1] - first,
+                  .pairs = blocks_.data() + first,
+                  .images = images,
+                  .history = history_.data() + first * columns_ * block,
+                  .touching = touching_.data() + first,
                   .owned = frame.owned,
                   .dt = dt},
                  seen);

@@ -1,11 +1,12 @@
 // The pairs of granules that may touch, with the history of those that do, in the blocks that the kernels work on.
 //
-// Pairs that touch or nearly touch when the list is made stand in front: their blocks are full of contacts. The others
-// follow; most of their blocks cost a look at eight distances. What a contact remembers is carried from list to list by
-// the identity of its partners, so sorting and migration cannot lose it. A pair of which a partner belongs to another
-// rank is known on both, each with its own copy of the same history.
+// Layer by layer, pairs that touch or nearly touch when the list is made stand in front: their blocks are full of
+// contacts. The others follow; most of their blocks cost a look at eight distances. What a contact remembers is carried
+// from list to list by the identity of its partners, so sorting and migration cannot lose it. A pair of which a partner
+// belongs to another rank is known on both, each with its own copy of the same history.
 #pragma once
 
+#include "granum/dem/layers.hpp"
 #include "granum/dem/neighbours.hpp"
 
 #include <array>
@@ -23,10 +24,10 @@ class PairList
     //! Number of columns of the histories.
     void shape(std::size_t columns) { columns_ = columns; }
 
-    //! Makes the list of `candidates`. `row_now` says where a row of the list before is now (Frame::lonely or more:
-    //! nowhere). Histories of contacts go on; what springs of contacts that are no candidates any more had stored is
-    //! passed to `ended` with the number of owned partners that they had.
-    void make(Frame const& frame, Candidates const& candidates,
+    //! Makes the list of `candidates`, which it swaps for those of the list before. `row_now` says where a row of the
+    //! list before is now (Frame::lonely or more: nowhere). Histories of contacts go on; what springs of contacts that
+    //! are no candidates any more had stored is passed to `ended` with the number of owned partners that they had.
+    void make(Frame const& frame, Layers const& layers, Candidates& candidates,
               std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before);
 
     //! Gives a history to a pair, if it is in the list. For contacts that come from another rank or a checkpoint.
@@ -41,8 +42,9 @@ class PairList
                 if ((touching_[b] >> lane & 1) != 0) what(low(b, lane), high(b, lane), history(b, lane));
     }
 
-    void run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, Domain const& domain, double dt,
-             kernel::Seen& seen);
+    //! Adds the forces of the pairs of a layer.
+    void run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+             kernel::Images const& images, double dt, kernel::Seen& seen);
 
     std::size_t pairs() const { return pairs_; }
     std::size_t blocks() const { return blocks_.size(); }
@@ -50,6 +52,7 @@ class PairList
     //! What was stored in springs of contacts that ended while a list was made, J.
     double take_lost_energy();
     std::size_t bytes() const;
+    std::size_t bytes_of_step() const;  //!< read or written in a step
 
     History history(std::size_t b, std::size_t lane) const;
     std::uint32_t low(std::size_t b, std::size_t lane) const { return kernel::row_of(blocks_[b].low[lane]); }
@@ -57,13 +60,21 @@ class PairList
     bool touching(std::size_t b, std::size_t lane) const { return (touching_[b] >> lane & 1) != 0; }
 
   private:
+    void take_known(Frame const& frame, std::function<std::uint32_t(std::uint32_t)> const& row_now,
+                    std::size_t owned_before);
+    void put_history(std::size_t place, double const* history);
     std::size_t find_near(std::uint32_t row, std::uint32_t other) const;
 
     std::size_t columns_ = 6, pairs_ = 0;
     base::AlignedVector<kernel::PairBlock> blocks_;
     base::AlignedVector<double> history_;
     std::vector<std::uint8_t> touching_;
-    std::vector<std::uint32_t> near_begin_, near_end_;
+    std::vector<std::size_t> layer_begin_{0};  // of the layers' blocks
+    Candidates candidates_;
+    std::vector<std::uint32_t> near_place_, near_next_, far_next_;
+    // Contacts on their way from one list to the next.
+    std::vector<PairRows> known_;
+    std::vector<double> known_history_;  // and the share of this rank in what they store
     bool mixed_ = false;  // more than one material
     double lost_energy_ = 0;
 };

@@ -139,7 +139,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         rules.fine_energy = 1.5 * 0x1p52 * (coarse * 0x1p-28);
     }
 
-    frame.wrap(domain);
+    for (std::size_t row = 0; row < frame.owned; ++row) frame.wrap(domain, row);
 
     std::size_t const owned_before = frame.owned;
     std::vector<Id> const ids_before = many ? frame.id : std::vector<Id>{};
@@ -180,6 +180,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     double const reach = 2 * largest + skin;
     if (many) halo.fill(frame, reach);
 
+    layers.make(frame, domain, halo.partition(), comm.rank(), reach);
     search.find(frame, domain, centre, skin, 0.15 * skin, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);
@@ -190,8 +191,8 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         }
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
-    pairs.make(frame, candidates, row_now, owned_before);
-    walls.make(frame, skin, largest, row_now);
+    pairs.make(frame, layers, candidates, row_now, owned_before);
+    walls.make(frame, layers, skin, largest, row_now);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
             auto const low = (*index)(record.low);
@@ -211,6 +212,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         std::copy_n(body.position, 4, body.built);
     }
     built_step = steps;
+    choose_most_together();
     growth = 0;
     travelled = 0;
     ++watch.rebuilds;

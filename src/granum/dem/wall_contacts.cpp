@@ -95,6 +95,8 @@ void WallContacts::clear()
     granules_.clear();
     body_.clear();
     touching_.clear();
+    near_begin_.assign(1, 0);
+    block_begin_.assign(1, 0);
     size_ = 0;
 }
 
@@ -129,7 +131,7 @@ double WallContacts::moved() const
     return std::sqrt(farthest2);
 }
 
-void WallContacts::make(Frame const& frame, double skin, double largest,
+void WallContacts::make(Frame const& frame, Layers const& layers, double skin, double largest,
                         std::function<std::uint32_t(std::uint32_t)> const& row_now)
 {
     struct Known
@@ -148,22 +150,31 @@ void WallContacts::make(Frame const& frame, double skin, double largest,
         body.built = body.pose;
         body.reach = largest + skin;
     }
-    for (std::uint32_t row = 0; row < frame.owned; ++row)
-        for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-            auto const& plane = bodies_[b].plane;
-            if (plane && dot(frame.position(row) - plane->point, plane->normal) >= frame.radius(row) + skin) continue;
-            std::size_t const first = facets_.size();
-            bodies_[b].search.near(bodies_[b].pose.to_body(frame.position(row)), frame.radius(row) + skin, facets_);
-            auto const places = static_cast<std::uint32_t>(std::min(facets_.size() - first, most_touches));
-            if (places == 0) continue;
-            near_.push_back({row, b, static_cast<std::uint32_t>(size_), places, first});
-            granules_.insert(granules_.end(), places, kernel::place_of(row));
-            body_.insert(body_.end(), places, b);
-            size_ += places;
-        }
-    std::size_t const padded = (size_ + block - 1) / block * block;
-    granules_.resize(padded, kernel::place_of(frame.lonely()));
-    body_.resize(padded, 0);
+    layers_ = &layers;
+    near_begin_.assign(1, 0);
+    block_begin_.assign(1, 0);
+    for (std::size_t layer = 0; layer < layers.count(); ++layer) {
+        for (auto const row : layers.rows(layer))
+            for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+                auto const& plane = bodies_[b].plane;
+                Vec3 const x = frame.position(row);
+                if (plane && dot(x - plane->point, plane->normal) >= frame.radius(row) + skin) continue;
+                std::size_t const first = facets_.size();
+                look_around(x, frame.radius(row) + skin, b);
+                auto const places = static_cast<std::uint32_t>(std::min(facets_.size() - first, most_touches));
+                if (places == 0) continue;
+                near_.push_back({row, b, static_cast<std::uint32_t>(size_), places, first});
+                granules_.insert(granules_.end(), places, kernel::place_of(row));
+                body_.insert(body_.end(), places, b);
+                size_ += places;
+            }
+        size_ = (size_ + block - 1) / block * block;
+        granules_.resize(size_, kernel::place_of(frame.lonely()));
+        body_.resize(size_, 0);
+        near_begin_.push_back(near_.size());
+        block_begin_.push_back(size_ / block);
+    }
+    std::size_t const padded = size_;
     material_.assign(padded, 0);
     for (std::size_t k = 0; k < size_; ++k) material_[k] = static_cast<std::uint8_t>(bodies_[body_[k]].material);
     history_.assign(padded * columns_, 0.0);
@@ -179,13 +190,41 @@ void WallContacts::make(Frame const& frame, double skin, double largest,
     }
 }
 
+// Facets of a body near a point, and near its images where it may cross a periodic face before the list is made anew.
+void WallContacts::look_around(Vec3 const& x, double reach, std::uint32_t b)
+{
+    auto const& body = bodies_[b];
+    std::size_t const first = facets_.size();
+    body.search.near(body.pose.to_body(x), reach, facets_);
+    std::array<Vec3, 8> images{x};
+    std::size_t count = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (!domain_.periodic[d]) continue;
+        double const length = domain_.upper[d] - domain_.lower[d];
+        double const over = x[d] < domain_.lower[d] + reach ? length : x[d] > domain_.upper[d] - reach ? -length : 0;
+        if (over == 0) continue;
+        for (std::size_t k = 0, so_far = count; k < so_far; ++k) {
+            images[count] = images[k];
+            images[count++][d] += over;
+        }
+    }
+    if (count == 1) return;
+    for (std::size_t k = 1; k < count; ++k) body.search.near(body.pose.to_body(images[k]), reach, facets_);
+    auto const from = facets_.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(from, facets_.end());
+    facets_.erase(std::unique(from, facets_.end()), facets_.end());
+}
+
 WallContacts::Near const* WallContacts::find(std::uint32_t row, std::uint32_t body) const
 {
-    auto const at =
-        std::lower_bound(near_.begin(), near_.end(), std::pair{row, body}, [](Near const& a, auto const& b) {
-            return std::pair{a.row, a.body} < b;
-        });
-    return at != near_.end() && at->row == row && at->body == body ? &*at : nullptr;
+    if (near_.empty()) return nullptr;
+    auto const layer = layers_->of(row);
+    auto const begin = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[layer]),
+               end = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[layer + 1]);
+    auto const at = std::lower_bound(begin, end, std::pair{row, body}, [](Near const& a, auto const& b) {
+        return std::pair{a.row, a.body} < b;
+    });
+    return at != end && at->row == row && at->body == body ? &*at : nullptr;
 }
 
 History WallContacts::history(std::size_t k) const
@@ -269,9 +308,9 @@ void WallContacts::place_touches(Near const& near, double radius, std::span<Near
     }
 }
 
-void WallContacts::measure(kernel::Rules const& rules, Frame const& frame)
+void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame)
 {
-    for (std::size_t n = 0; n < near_.size(); ++n) {
+    for (std::size_t n = near_begin_[layer]; n < near_begin_[layer + 1]; ++n) {
         Near const& near = near_[n];
         Moving const& body = bodies_[near.body];
         std::size_t const end_of_facets = n + 1 < near_.size() ? near_[n + 1].facet : facets_.size();
@@ -298,32 +337,39 @@ void WallContacts::measure(kernel::Rules const& rules, Frame const& frame)
     }
 }
 
-void WallContacts::run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
-                       kernel::Seen& seen, par::Communicator const& comm)
+void WallContacts::run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+                       double dt, kernel::Seen& seen)
 {
-    if (size_ > 0) {
-        measure(rules, frame);
-        auto const numbers = [](Triples& of) { return std::array{of[0].data(), of[1].data(), of[2].data()}; };
-        auto const n = numbers(normal_), v = numbers(velocity_), w = numbers(spin_), f = numbers(force_),
-                   t = numbers(torque_);
-        kernel.walls({.rules = &rules,
-                      .bodies = frame.bodies.data(),
-                      .material = frame.material.data(),
-                      .blocks = touching_.size(),
-                      .granule = granules_.data(),
-                      .wall_material = material_.data(),
-                      .overlap = overlap_.data(),
-                      .normal = {n[0], n[1], n[2]},
-                      .velocity = {v[0], v[1], v[2]},
-                      .spin = {w[0], w[1], w[2]},
-                      .history = history_.data(),
-                      .touching = touching_.data(),
-                      .dt = dt,
-                      .force = {f[0], f[1], f[2]},
-                      .torque = {t[0], t[1], t[2]}},
-                     seen);
-        if (any_motion_ && dt > 0) work_ += power(rules, frame) * dt;
-    }
+    std::size_t const blocks = block_begin_[layer + 1] - block_begin_[layer];
+    if (blocks == 0) return;
+    measure(layer, rules, frame);
+    std::size_t const first = block * block_begin_[layer];
+    auto const numbers = [first](Triples& of) {
+        return std::array{of[0].data() + first, of[1].data() + first, of[2].data() + first};
+    };
+    auto const n = numbers(normal_), v = numbers(velocity_), w = numbers(spin_), f = numbers(force_),
+               t = numbers(torque_);
+    kernel.walls({.rules = &rules,
+                  .bodies = frame.bodies.data(),
+                  .material = frame.material.data(),
+                  .blocks = blocks,
+                  .granule = granules_.data() + first,
+                  .wall_material = material_.data() + first,
+                  .overlap = overlap_.data() + first,
+                  .normal = {n[0], n[1], n[2]},
+                  .velocity = {v[0], v[1], v[2]},
+                  .spin = {w[0], w[1], w[2]},
+                  .history = history_.data() + first * columns_,
+                  .touching = touching_.data() + block_begin_[layer],
+                  .dt = dt,
+                  .force = {f[0], f[1], f[2]},
+                  .torque = {t[0], t[1], t[2]}},
+                 seen);
+}
+
+void WallContacts::finish(kernel::Rules const& rules, Frame const& frame, double dt, par::Communicator const& comm)
+{
+    if (any_motion_ && dt > 0) work_ += power(rules, frame) * dt;
     if (!any_servo_) return;
     auto const sums = tally(frame, comm, true);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

@@ -40,13 +40,17 @@ class WallContacts
 
     //! Lists the owned granules closer than `skin` (m) to a body; `largest` is the largest radius of all ranks (m).
     //! `row_now` as in PairList::make.
-    void make(Frame const& frame, double skin, double largest,
+    void make(Frame const& frame, Layers const& layers, double skin, double largest,
               std::function<std::uint32_t(std::uint32_t)> const& row_now);
 
-    //! Finds the contacts of the frame's positions and adds their forces to its sums. Collective where a body has a
-    //! servo.
-    void run(kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt, kernel::Seen& seen,
-             par::Communicator const& comm);
+    //! Finds the contacts of a layer's granules where they are now and adds their forces.
+    void run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
+             kernel::Seen& seen);
+    //! To be called when all layers have run: counts the work of moving bodies and lets servos answer. Collective where
+    //! a body has a servo.
+    void finish(kernel::Rules const& rules, Frame const& frame, double dt, par::Communicator const& comm);
+    //! Whether a body moves: then all layers must be run at the same time.
+    bool any_motion() const { return any_motion_; }
 
     //! Calls what(row, partner, history) for every contact.
     template <class What>
@@ -112,12 +116,13 @@ class WallContacts
         std::size_t facet;
     };
 
-    void measure(kernel::Rules const& rules, Frame const& frame);
+    void measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame);
     void place_touches(Near const& near, double radius, std::span<geometry::Nearest const> touches);
     void end(std::size_t place);
     using ExactLoad = std::array<base::ExactSum, 7>;  // force, torque, mass of the granules that touch a servo
     std::vector<ExactLoad> tally(Frame const& frame, par::Communicator const& comm, bool servos_only) const;
     double power(kernel::Rules const& rules, Frame const& frame) const;
+    void look_around(Vec3 const& x, double reach, std::uint32_t body);
     Near const* find(std::uint32_t row, std::uint32_t body) const;
     double& history_at(std::size_t k, std::size_t column)
     {
@@ -135,7 +140,9 @@ class WallContacts
     bool any_servo_ = false, any_motion_ = false;
     std::size_t columns_ = 6, size_ = 0;
     bool ledger_ = false;
-    std::vector<Near> near_;  // sorted by row, then body
+    std::vector<Near> near_;                                   // by layer, row and body
+    std::vector<std::size_t> near_begin_{0}, block_begin_{0};  // of the layers
+    Layers const* layers_ = nullptr;
     std::vector<std::uint32_t> facets_;
     std::vector<std::uint32_t> granules_, body_;  // per place
     std::vector<std::uint8_t> material_, touching_;

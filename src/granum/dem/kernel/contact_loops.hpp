@@ -51,22 +51,13 @@ struct Recipient
         force_rounder = granule.rounder;
         torque_rounder = granule.rounder * power_of_two_below(granule.radius);
     }
-    HWY_INLINE void give(Body* bodies, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
-    {
-        auto const rounded = [](Triple<Lanes> const& a, Lanes by) {
-            return Triple<Lanes>{(a.x + by) - by, (a.y + by) - by, (a.z + by) - by};
-        };
-        add_pulls({bodies->force, places}, rounded(force, force_rounder), rounded(torque, torque_rounder));
-    }
-    // Subtracts instead.
-    HWY_INLINE void take(Body* bodies, Triple<Lanes> const& force, Triple<Lanes> const& torque) const
-    {
-        auto const rounded = [](Triple<Lanes> const& a, Lanes by) {
-            return Triple<Lanes>{by - (a.x + by), by - (a.y + by), by - (a.z + by)};
-        };
-        add_pulls({bodies->force, places}, rounded(force, force_rounder), rounded(torque, torque_rounder));
-    }
+    HWY_INLINE Addresses sums(Body* bodies) const { return {bodies->force, places}; }
 };
+
+HWY_INLINE Rows rounded(Triple<Lanes> const& a, Lanes by)
+{
+    return Rows({(a.x + by) - by, (a.y + by) - by, (a.z + by) - by});
+}
 
 // Of a sphere about a point of its surface.
 HWY_INLINE Lanes inverse_inertia(Partner const& granule)
@@ -251,7 +242,7 @@ using first = std::integral_constant<std::size_t, 0>;
 using second = std::integral_constant<std::size_t, 1>;
 
 // What a pass adds up.
-struct Energy
+struct Energies
 {
     Lanes coarse = 0.0, fine = 0.0;
 
@@ -261,13 +252,13 @@ struct Energy
         coarse += rough;
         fine += ((energy - rough) + fine_by) - fine_by;
     }
-    double value() const { return sum(coarse) + sum(fine); }
+    void tell(Energy& to) const { to.coarse += sum(coarse), to.fine += sum(fine); }
 };
 
 struct Tally
 {
     Lanes worst, coarse_by, fine_by;
-    Energy dissipated, elastic;
+    Energies dissipated, elastic;
     long contacts = 0;
 
     HWY_INLINE Tally(Rules const& rules, Seen const& seen)
@@ -297,8 +288,8 @@ struct Tally
         for (std::size_t lane = 0; lane < width; ++lane)
             if (each[lane] > seen.largest_overlap) seen.largest_overlap = each[lane];
         seen.contacts += contacts;
-        seen.dissipated += dissipated.value();
-        seen.elastic += elastic.value();
+        dissipated.tell(seen.dissipated);
+        elastic.tell(seen.elastic);
     }
 };
 
@@ -330,8 +321,12 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
         auto const& [low, high] = waiting[k];
         auto const force = get(contact.force, k), rolling = get(contact.rolling, k);
         Triple<Lanes> const turn = cross(get(contact.n, k), get(contact.tangential, k));
-        low.give(in.bodies, force, neg_mul_add(low.lever, turn, rolling));
-        high.take(in.bodies, force, mul_add(high.lever, turn, rolling));
+        Rows const push = rounded(force, low.force_rounder);
+        Triple<Lanes> const torque = neg_mul_add(low.lever, turn, rolling), back = mul_add(high.lever, turn, rolling);
+        add_pulls<false>(low.sums(in.bodies), push, rounded(torque, low.torque_rounder));
+        bool const alike = !any(low.force_rounder != high.force_rounder);
+        add_pulls<true>(high.sums(in.bodies), alike ? push : rounded(force, high.force_rounder),
+                        rounded(back, high.torque_rounder));
         if (rules.ledger) tally.energies(contact, k, shares(low.places, high.places, place_of(in.owned)));
     };
     for (std::size_t b = 0; b < in.blocks; ++b) {
@@ -432,7 +427,8 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
         auto const force = get(contact.force, k);
         Triple<Lanes> const turn = cross(get(contact.n, k), get(contact.tangential, k));
         Triple<Lanes> const torque = neg_mul_add(granule.lever, turn, get(contact.rolling, k));
-        granule.give(in.bodies, force, torque);
+        add_pulls<false>(granule.sums(in.bodies), rounded(force, granule.force_rounder),
+                         rounded(torque, granule.torque_rounder));
         keep(force, in.force, place);
         keep(torque, in.torque, place);
         if (rules.ledger) tally.energies(contact, k, Lanes(1.0));
@@ -536,8 +532,8 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
     for (std::size_t c = 0; c < 4; c += lanes) {
         auto const gravity = hn::Load(d, pull + c), along = hn::Load(d, drift + c);
         auto fastest = none, odd = none;
-        for (std::size_t row = 0; row < in.rows; ++row) {
-            Body& body = in.bodies[row];
+        for (std::size_t k = 0; k < in.count; ++k) {
+            Body& body = in.bodies[in.rows[k]];
             auto const acceleration = hn::MulAdd(hn::Load(d, body.force + c), hn::Set(d, body.inverse_mass), gravity);
             auto const turning = hn::Set(d, in.half * 2.5 * body.inverse_mass / (body.radius * body.radius));
             auto velocity = hn::Load(d, body.velocity + c), spin = hn::Load(d, body.spin + c);

@@ -67,12 +67,19 @@ struct Rules
     std::size_t columns = 6;  //!< of history
 };
 
-//! What a pass saw. With a partner that another rank owns, each side counts one half of the energies.
+//! An energy in two parts, J, each in multiples of its quantum (Rules::coarse_energy), so that it is summed exactly.
+struct Energy
+{
+    double coarse = 0, fine = 0;
+    double value() const { return coarse + fine; }
+};
+
+//! What passes saw, summed. With a partner that another rank owns, each side counts one half of the energies.
 struct Seen
 {
     double largest_overlap = 0;  //!< over the radius of the smaller partner
     long contacts = 0;
-    double dissipated = 0, elastic = 0;  //!< J: in this step; stored now
+    Energy dissipated, elastic;  //!< in this step; stored now
 };
 
 //! The lengths of a periodic domain, m: a difference beyond half a length is shortened by one. Where it is not
@@ -120,11 +127,12 @@ struct WallPass
     double* torque[3];  //!< on the granule about its centre, N m
 };
 
-//! A pass over the rows that moves them on: `kicks` half steps of velocity, then a drift of position.
+//! A pass over `count` of the rows that moves them on: `kicks` half steps of velocity, then a drift of position.
 struct Motion
 {
     Body* bodies;
-    std::size_t rows;
+    std::uint32_t const* rows;
+    std::size_t count;
     double gravity[3];
     double half;   //!< s, of one kick
     double drift;  //!< s

@@ -61,6 +61,7 @@ struct Lanes
     HWY_INLINE Lanes& operator*=(Lanes b) { return v = hn::Mul(v, b.v), *this; }
     HWY_INLINE friend Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
     HWY_INLINE friend Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+    HWY_INLINE friend Mask operator!=(Lanes a, Lanes b) { return {hn::Ne(a.v, b.v)}; }
     HWY_INLINE friend Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
     HWY_INLINE friend Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
 };
@@ -301,50 +302,73 @@ HWY_INLINE void gather_quads(Addresses const& rows, std::size_t offset, Lanes* o
 #endif
 }
 
-// Adds a force and a torque to each row of eight numbers (the fourth and the eighth stay), one row after the other:
-// rows may be the same.
-HWY_INLINE void add_pulls(Addresses const& rows, Triple<Lanes> const& force, Triple<Lanes> const& torque)
+// Three numbers of each lane, turned into rows of three and a zero.
+struct Rows
 {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    __m512d const zero = _mm512_setzero_pd();
-    __m512i const even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
-                  odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-    // Of four rows of x y z 0 each register holds one in its lower and one in its upper half: 0 4, 1 5, 2 6, 3 7.
-    auto const turned = [&](Triple<Lanes> const& in, __m512d* out) {
-        __m512d const x = in.x.v.raw, y = in.y.v.raw, z = in.z.v.raw;
+    __m512d of[4];  // each holds a row in its lower and one in its upper half: 0 4, 1 5, 2 6, 3 7
+
+    HWY_INLINE explicit Rows(Triple<Lanes> const& in)
+    {
+        __m512d const zero = _mm512_setzero_pd(), x = in.x.v.raw, y = in.y.v.raw, z = in.z.v.raw;
+        __m512i const even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                      odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
         __m512d const xy0 = _mm512_unpacklo_pd(x, y), xy1 = _mm512_unpackhi_pd(x, y);
         __m512d const z0 = _mm512_unpacklo_pd(z, zero), z1 = _mm512_unpackhi_pd(z, zero);
-        out[0] = _mm512_permutex2var_pd(xy0, even, z0), out[1] = _mm512_permutex2var_pd(xy1, even, z1);
-        out[2] = _mm512_permutex2var_pd(xy0, odd, z0), out[3] = _mm512_permutex2var_pd(xy1, odd, z1);
-    };
-    __m512d f[4], t[4];
-    turned(force, f);
-    turned(torque, t);
-    auto const add = [&](std::size_t lane, __m512d what) {
-        _mm512_store_pd(rows.at(lane), _mm512_add_pd(_mm512_load_pd(rows.at(lane)), what));
-    };
-    for (std::size_t k = 0; k < 4; ++k) add(k, _mm512_insertf64x4(f[k], _mm512_castpd512_pd256(t[k]), 1));
-    for (std::size_t k = 0; k < 4; ++k) add(k + 4, _mm512_shuffle_f64x2(f[k], t[k], 0xEE));
+        of[0] = _mm512_permutex2var_pd(xy0, even, z0), of[1] = _mm512_permutex2var_pd(xy1, even, z1);
+        of[2] = _mm512_permutex2var_pd(xy0, odd, z0), of[3] = _mm512_permutex2var_pd(xy1, odd, z1);
+    }
 #elif HWY_TARGET == HWY_AVX2
-    Tag const d;
-    auto const zero = hn::Zero(d);
-    auto const add = [&](Triple<Lanes> const& in, std::size_t offset) {
+    Register of[4];
+
+    HWY_INLINE explicit Rows(Triple<Lanes> const& in)
+    {
+        Tag const d;
+        auto const zero = hn::Zero(d);
         auto const xy0 = hn::InterleaveLower(d, in.x.v, in.y.v), xy1 = hn::InterleaveUpper(d, in.x.v, in.y.v);
         auto const z0 = hn::InterleaveLower(d, in.z.v, zero), z1 = hn::InterleaveUpper(d, in.z.v, zero);
-        auto const one = [&](std::size_t lane, Register what) {
-            hn::Store(hn::Add(hn::Load(d, rows.at(lane) + offset), what), d, rows.at(lane) + offset);
-        };
-        one(0, hn::ConcatLowerLower(d, z0, xy0)), one(1, hn::ConcatLowerLower(d, z1, xy1));
-        one(2, hn::ConcatUpperUpper(d, z0, xy0)), one(3, hn::ConcatUpperUpper(d, z1, xy1));
-    };
-    add(force, 0);
-    add(torque, 4);
+        of[0] = hn::ConcatLowerLower(d, z0, xy0), of[1] = hn::ConcatLowerLower(d, z1, xy1);
+        of[2] = hn::ConcatUpperUpper(d, z0, xy0), of[3] = hn::ConcatUpperUpper(d, z1, xy1);
+    }
 #else
-    alignas(64) double values[6][8];
-    store(force.x, values[0]), store(force.y, values[1]), store(force.z, values[2]);
-    store(torque.x, values[3]), store(torque.y, values[4]), store(torque.z, values[5]);
+    alignas(64) double of[3][8];
+
+    HWY_INLINE explicit Rows(Triple<Lanes> const& in)
+    {
+        store(in.x, of[0]), store(in.y, of[1]), store(in.z, of[2]);
+    }
+#endif
+};
+
+// Adds a force and a torque to each row of eight numbers (the fourth and the eighth stay), or subtracts them, one row
+// after the other: rows may be the same.
+template <bool Subtract>
+HWY_INLINE void add_pulls(Addresses const& rows, Rows const& force, Rows const& torque)
+{
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    auto const add = [&](std::size_t lane, __m512d what) {
+        __m512d const before = _mm512_load_pd(rows.at(lane));
+        _mm512_store_pd(rows.at(lane), Subtract ? _mm512_sub_pd(before, what) : _mm512_add_pd(before, what));
+    };
+    for (std::size_t k = 0; k < 4; ++k)
+        add(k, _mm512_insertf64x4(force.of[k], _mm512_castpd512_pd256(torque.of[k]), 1));
+    for (std::size_t k = 0; k < 4; ++k) add(k + 4, _mm512_shuffle_f64x2(force.of[k], torque.of[k], 0xEE));
+#elif HWY_TARGET == HWY_AVX2
+    Tag const d;
+    auto const add = [&](double* to, Register what) {
+        auto const before = hn::Load(d, to);
+        hn::Store(Subtract ? hn::Sub(before, what) : hn::Add(before, what), d, to);
+    };
+    for (std::size_t lane = 0; lane < width; ++lane) {
+        add(rows.at(lane), force.of[lane]);
+        add(rows.at(lane) + 4, torque.of[lane]);
+    }
+#else
     for (std::size_t lane = 0; lane < width; ++lane)
-        for (std::size_t k = 0; k < 6; ++k) rows.at(lane)[k < 3 ? k : k + 1] += values[k][lane];
+        for (std::size_t d = 0; d < 3; ++d) {
+            rows.at(lane)[d] += Subtract ? -force.of[d][lane] : force.of[d][lane];
+            rows.at(lane)[4 + d] += Subtract ? -torque.of[d][lane] : torque.of[d][lane];
+        }
 #endif
 }
 }

@@ -75,7 +75,7 @@ Answer laws(Rules const& rules, Pair<double> const& pair, Approach<double> const
 
 void end_contact(Rules const& rules, double* history, double share, Seen& seen)
 {
-    if (rules.ledger) seen.dissipated += share * history[(rules.columns - 1) * block];
+    if (rules.ledger) seen.dissipated.coarse += share * history[(rules.columns - 1) * block];
     for (std::size_t c = 0; c < rules.columns; ++c) history[c * block] = 0;
 }
 
@@ -123,8 +123,8 @@ void pair_pass(PairPass const& in, Seen& seen)
             Vector const turn = cross(n, out.tangential);
             give(low, out.force, out.rolling - lever_low * turn);
             give(high, -out.force, -out.rolling - lever_high * turn);
-            seen.dissipated += share * out.dissipated;
-            seen.elastic += share * out.elastic;
+            seen.dissipated.coarse += share * out.dissipated;
+            seen.elastic.coarse += share * out.elastic;
         }
 }
 
@@ -170,8 +170,8 @@ void wall_pass(WallPass const& in, Seen& seen)
         give(body, out.force, torque);
         in.force[0][place] = out.force.x, in.force[1][place] = out.force.y, in.force[2][place] = out.force.z;
         in.torque[0][place] = torque.x, in.torque[1][place] = torque.y, in.torque[2][place] = torque.z;
-        seen.dissipated += out.dissipated;
-        seen.elastic += out.elastic;
+        seen.dissipated.coarse += out.dissipated;
+        seen.elastic.coarse += out.elastic;
     }
 }
 
@@ -208,8 +208,8 @@ void walls(WallPass const& in, Seen& seen)
 
 void move(Motion const& in, MotionSeen& seen)
 {
-    for (std::size_t row = 0; row < in.rows; ++row) {
-        Body& body = in.bodies[row];
+    for (std::size_t k = 0; k < in.count; ++k) {
+        Body& body = in.bodies[in.rows[k]];
         double const turning = in.half * 2.5 * body.inverse_mass / (body.radius * body.radius);
         double speed2 = 0;
         for (std::size_t d = 0; d < 3; ++d) {

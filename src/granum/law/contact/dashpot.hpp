@@ -16,7 +16,7 @@ namespace granum::law::contact
 template <class Real>
 Real lagged(Real coefficient, Real later)
 {
-    Real const q = Real(0.5) * coefficient * later;
+    Real const q = coefficient * (Real(0.5) * later);
     return coefficient * reciprocal(mul_add(q, mul_add(Real(0.5), q, Real(1)), Real(1)));
 }
 
@@ -24,7 +24,7 @@ Real lagged(Real coefficient, Real later)
 template <class Real>
 auto just_touched(Approach<Real> const& at)
 {
-    return at.overlap < -at.speed * at.step;
+    return mul_add(at.speed, at.step, at.overlap) < Real(0);
 }
 
 //! Overlap at which the dashpot is to be evaluated: in the first step that which is reached half a step from now.
@@ -48,13 +48,12 @@ Real spring_and_dashpot(Approach<Real> const& at, Real elastic, Real coefficient
 {
     auto const first = just_touched(at);
     Real later = Real(0.5) * at.step * at.inverse_mass;
-    Real closing = -at.speed;
+    Real opening = at.speed;
     if (any(first)) {
         later = select(first, Real(0.75) * later, later);
-        closing = select(first, damped_overlap(at) * reciprocal(max(Real(power) * at.step, Real(tiny))), closing);
+        opening = select(first, -damped_overlap(at) * reciprocal(max(Real(power) * at.step, Real(tiny))), opening);
     }
-    Real const damping = lagged(coefficient, later);
-    Real const force = mul_add(damping, closing, elastic);
+    Real const force = neg_mul_add(lagged(coefficient, later), opening, elastic);
     return attraction == Attraction::cut ? max(force, Real(0)) : force;
 }
 }

@@ -133,14 +133,14 @@ Triple<Real> turned_into_plane(Triple<Real> const& history, Triple<Real> const& 
     Real const along = dot(history, n);
     Triple<Real> const flat = neg_mul_add(along, n, history);
     Real const flat2 = norm2(flat), whole2 = mul_add(along, along, flat2), product = flat2 * whole2;
-    Real const scale = whole2 * reciprocal_sqrt(max(product, Real(tiny)));
-    return select(product > Real(tiny), scale, Real(0)) * flat;
+    return (whole2 * reciprocal_sqrt(max(product, Real(tiny)))) * flat;
 }
 
-//! The factor that brings a vector of squared length `size2` down to `limit` where it is longer, 1 elsewhere.
-template <class Real>
-Real shortening(Real limit, Real size2)
+//! The factor that brings a vector of squared length `size2` down to `limit` where it is longer (`within` false), 1
+//! elsewhere.
+template <class Real, class Mask>
+Real shortening(Mask within, Real limit, Real size2)
 {
-    return select(size2 > limit * limit, limit * reciprocal_sqrt(max(size2, Real(tiny))), Real(1));
+    return select(within, Real(1), limit * reciprocal_sqrt(max(size2, Real(tiny))));
 }
 }

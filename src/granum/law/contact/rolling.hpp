@@ -27,7 +27,8 @@ struct Epsd
         Triple<Real> const rolling = neg_mul_add(dot(relative_spin, n), n, relative_spin);
         Triple<Real> const before = turned_into_plane(Triple<Real>{spring[0], spring[1], spring[2]}, n);
         Triple<Real> const trial = neg_mul_add(stiffness * at.step, rolling, before);
-        Triple<Real> const torque = shortening(limit, norm2(trial)) * trial;
+        Real const size2 = norm2(trial);
+        Triple<Real> const torque = shortening(size2 <= limit * limit, limit, size2) * trial;
         spring[0] = torque.x, spring[1] = torque.y, spring[2] = torque.z;
         return {torque, Real(0.5) * norm2(torque) * reciprocal(max(stiffness, Real(tiny))),
                 Real(-0.5) * at.step * dot(before + torque, rolling)};

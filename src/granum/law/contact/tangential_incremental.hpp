@@ -23,7 +23,7 @@ TangentialForce<Real> summed_force(Pair<Real> const& pair, Approach<Real> const&
     Real const limit = pair.sliding_friction * max(normal.force, Real(0));
     Real const size2 = norm2(trial);
     auto const sticks = size2 <= limit * limit;
-    Triple<Real> const force = shortening(limit, size2) * trial;
+    Triple<Real> const force = shortening(sticks, limit, size2) * trial;
     spring[0] = select(sticks, after.x, force.x);
     spring[1] = select(sticks, after.y, force.y);
     spring[2] = select(sticks, after.z, force.z);

@@ -39,25 +39,25 @@ struct Mindlin
         Real const viscous = lagged(Real(2) * pair.tangential_damping * normal.tangential_impedance, later);
         Triple<Real> const before = turned_into_plane(Triple<Real>{slip[0], slip[1], slip[2]}, n);
         Triple<Real> const after = mul_add(at.step, velocity, before);
-        // The negative of spring and dashpot, and of what friction lets through.
-        Triple<Real> const spring = stiffness * after;
-        Triple<Real> const trial = mul_add(viscous, velocity, spring);
+        Triple<Real> const none{Real(0), Real(0), Real(0)};
+        Triple<Real> const spring = neg_mul_add(stiffness, after, none);
+        Triple<Real> const trial = neg_mul_add(viscous, velocity, spring);
         Real const limit = pair.sliding_friction * max(normal.force, Real(0));
         Real const size2 = norm2(trial);
         auto const sticks = size2 <= limit * limit;
-        Triple<Real> const against = shortening(limit, size2) * trial;
-        Real const softness = normal.tangential_compliance;
-        slip[0] = select(sticks, after.x, softness * against.x);
-        slip[1] = select(sticks, after.y, softness * against.y);
-        slip[2] = select(sticks, after.z, softness * against.z);
+        Triple<Real> const force = shortening(sticks, limit, size2) * trial;
+        Triple<Real> const carried = neg_mul_add(normal.tangential_compliance, force, none);
+        slip[0] = select(sticks, after.x, carried.x);
+        slip[1] = select(sticks, after.y, carried.y);
+        slip[2] = select(sticks, after.z, carried.z);
 
-        Real const before_too = stiffness_before * dot(before, velocity);
-        Real const viscous_work = viscous * neg_mul_add(later, dot(velocity, against), norm2(velocity));
-        Real const sticking = at.step * mul_add(Real(0.5), before_too + dot(spring, velocity), viscous_work);
-        Real const sliding = Real(0.5) * at.step * (before_too + dot(against, velocity));
+        Real const against_before = -stiffness_before * dot(before, velocity);
+        Real const viscous_work = viscous * mul_add(later, dot(velocity, force), norm2(velocity));
+        Real const sticking = at.step * mul_add(Real(-0.5), against_before + dot(spring, velocity), viscous_work);
+        Real const sliding = Real(-0.5) * at.step * (against_before + dot(force, velocity));
         stored = Real(0.5) * stiffness * norm2(Triple<Real>{slip[0], slip[1], slip[2]});
         stiffness_before = stiffness;
-        return {-against, select(sticks, sticking, sliding)};
+        return {force, select(sticks, sticking, sliding)};
     }
 };
 }

@@ -1,0 +1,130 @@
+// Moving granules on: layer by layer, one step at a time or several in one sweep.
+#include "granum/dem/motion.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace granum::dem
+{
+using base::Stage;
+
+namespace
+{
+constexpr int most_steps = 8;
+
+void kick_with_gas(Frame& frame, particle::Store& granules, std::span<std::uint32_t const> rows, Vec3 const& gravity,
+                   double half)
+{
+    for (auto const row : rows) {
+        auto& body = frame.bodies[row];
+        double const rate = granules.drag_rate[row], mass = granules.mass[row];
+        Vec3 const& gas = granules.gas_velocity[row];
+        Vec3 const pull = (Frame::vec(body.force) + granules.gas_force[row]) * body.inverse_mass + gravity;
+        Vec3 const velocity = (Frame::vec(body.velocity) + half * (pull + rate * gas)) * (1 / (1 + half * rate));
+        granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
+        double const turning = half * 2.5 * body.inverse_mass / (body.radius * body.radius);
+        for (std::size_t d = 0; d < 3; ++d) {
+            body.velocity[d] = velocity[d];
+            body.spin[d] += turning * body.torque[d];
+        }
+    }
+}
+}
+
+// Kicks the granules of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any went.
+double Engine::Inside::move(Motion const& motion, std::size_t layer, int kicks, bool drifts)
+{
+    auto const rows = layers.rows(layer);
+    double const drift = drifts ? 2 * motion.half : 0;
+    if (motion.gas)
+        for (int kick = 0; kick < kicks; ++kick)
+            kick_with_gas(frame, motion.granules, rows, settings.gravity, motion.half);
+    if (motion.gas && !drifts) return 0;
+    kernel::MotionSeen seen;
+    kernel->move({.bodies = frame.bodies.data(),
+                  .rows = rows.data(),
+                  .count = rows.size(),
+                  .gravity = {settings.gravity.x, settings.gravity.y, settings.gravity.z},
+                  .half = motion.half,
+                  .drift = drift,
+                  .kicks = motion.gas ? 0 : kicks,
+                  .clear = drifts},
+                 seen);
+    if (!seen.finite) find_non_finite();
+    if (drifts && images.any)
+        for (auto const row : rows) frame.wrap(domain, row);
+    return std::sqrt(seen.fastest2) * drift;
+}
+
+double Engine::Inside::move_all(Motion const& motion, int kicks, bool drifts)
+{
+    auto const timing = stopwatch.time(Stage::contacts);
+    double moved = 0;
+    for (std::size_t layer = 0; layer < layers.count(); ++layer)
+        moved = std::max(moved, move(motion, layer, kicks, drifts));
+    return moved;
+}
+
+// How many of the `left` steps the next sweep does: as many as keep a sweep's layers in the cache, and as the list
+// will do for with some reserve, since nobody looks at it on the way.
+int Engine::Inside::steps_together(int left) const
+{
+    if (walls.any_motion()) return 1;
+    double const room = std::max(0.0, 0.5 * skin - growth - travelled), each = reserve * last_moved;
+    int const together = std::min({left, most_together, most_steps});
+    return each * together <= room ? together : std::max(1, static_cast<int>(room / each));
+}
+
+// Does `together` steps in one sweep over the layers. Layer k takes its step t when layer k + 1 has taken step t - 1.
+// Ranks exchange layer 0 in each step, which all of them take up first.
+void Engine::Inside::sweep(Motion const& motion, int together)
+{
+    auto const timing = stopwatch.time(Stage::contacts);
+    double const dt = 2 * motion.half;
+    std::array<kernel::Seen, most_steps> seen;
+    std::array<double, most_steps + 1> moved{};  // by step; the last: whether something failed
+    auto const steps_of_sweep = static_cast<std::size_t>(together);
+    long const before = steps;
+    ++watch.sweeps;
+    for (std::size_t front = 0; front + 1 < layers.count() + steps_of_sweep; ++front)
+        for (std::size_t t = 0; t < std::min(steps_of_sweep, front + 1); ++t) {
+            std::size_t const layer = front - t;
+            if (layer >= layers.count()) continue;
+            steps = before + static_cast<long>(t) + 1;
+            moved[t] = std::max(moved[t], move(motion, layer, 2, true));
+            if (layer == 0 && comm.size() > 1) halo.refresh_motion(frame);
+            forces(layer, dt, seen[t]);
+        }
+    for (std::size_t t = 0; t < steps_of_sweep; ++t) {
+        steps = before + static_cast<long>(t) + 1;
+        time += dt;
+        finish_forces(dt, seen[t]);
+    }
+    walls.go_to(time, dt);
+    moved.back() = failure.empty() ? 0 : 1;
+    if (comm.size() > 1)
+        MPI_Allreduce(MPI_IN_PLACE, moved.data(), static_cast<int>(moved.size()), MPI_DOUBLE, MPI_MAX, comm.handle());
+    if (moved.back() > 0) agree_on_failure();
+    for (std::size_t t = 0; t < steps_of_sweep; ++t) travelled += moved[t];
+    last_moved = moved[steps_of_sweep - 1];
+    if (double const free = 0.5 * skin - growth; travelled > free && (travelled = comm.max(farthest())) > free) {
+        ++watch.late_lists;
+        reserve *= 2;
+    }
+}
+
+// With several ranks all must come to the same.
+void Engine::Inside::choose_most_together()
+{
+    long const cache = std::max(sysconf(_SC_LEVEL2_CACHE_SIZE), 1L << 20);
+    double const state = static_cast<double>(frame.rows() * sizeof(kernel::Body) + pairs.bytes_of_step());
+    double const layers_in_cache = 0.75 * static_cast<double>(cache) / state * static_cast<double>(layers.count());
+    // Where not even a few layers stay in this cache, the next one gains by more steps yet.
+    int const own =
+        layers_in_cache < 3 ? most_steps : static_cast<int>(std::min(layers_in_cache - 1, 1.0 * most_steps));
+    most_together = static_cast<int>(-comm.max(static_cast<long>(-own)));
+}
+}
