@@ -94,8 +94,11 @@ Box::Box(State const& state, long tiles_x, long tiles_y, Touching const& touchin
     });
     total = comm.sum(static_cast<long>(mine));
 
-    engine = std::make_unique<dem::Engine>(settings_of(upper, touching, how), partition, comm);
+    auto settings = settings_of(upper, touching, how);
+    settings.balance_every = 10;
+    engine = std::make_unique<dem::Engine>(std::move(settings), partition, comm);
     engine->prepare(granules);
+    if (comm.size() > 1) engine->rebalance(granules);  // by contacts, which were not known before
 }
 
 double Box::kinetic_energy(par::Communicator const& comm) const

@@ -66,7 +66,7 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
         double const least = 0.05 * mean_radius, most = 0.8 * mean_radius;
         width = 0.1 * mean_radius;
         if (skin > 0) {
-            constexpr double list_cost = 60;
+            constexpr double list_cost = 120;
             double const steps_per_width = static_cast<double>(std::max(1L, steps - built_step)) / skin;
             // Pairs per granule and unit of width at a solids fraction of 0.5: 12 phi / R.
             double const pairs_per_width = 6 / mean_radius;

@@ -91,18 +91,36 @@ struct Partition::Balance
     std::span<double const> work;
     Communicator const& comm;
 
+    // What the points of all ranks fill of a part: it is cut across its longest side, so that ranks have short borders.
+    Box bounds(std::vector<std::uint32_t> const& mine, Box const& box) const
+    {
+        if (comm.sum(static_cast<long>(mine.size())) == 0) return box;
+        Box out{box.upper, box.lower};
+        for (std::size_t d = 0; d < 3; ++d) {
+            for (auto const k : mine) {
+                out.lower[d] = std::min(out.lower[d], points[k][d]);
+                out.upper[d] = std::max(out.upper[d], points[k][d]);
+            }
+            out.lower[d] = std::max(box.lower[d], -comm.max(-out.lower[d]));
+            out.upper[d] = std::min(box.upper[d], comm.max(out.upper[d]));
+        }
+        return out;
+    }
+
     // Returns the number of the cut made, or -1 - rank.
     int divide(std::vector<std::uint32_t> mine, Box const& box, int first_rank, int ranks)
     {
         if (ranks == 1) return -1 - first_rank;
+        Box const filled = bounds(mine, box);
         std::size_t direction = 0;
         for (std::size_t d = 1; d < 3; ++d)
-            if (box.upper[d] - box.lower[d] > 1.0000001 * (box.upper[direction] - box.lower[direction])) direction = d;
+            if (filled.upper[d] - filled.lower[d] > 1.0000001 * (filled.upper[direction] - filled.lower[direction]))
+                direction = d;
         int const first_group = ranks / 2;
         double total = 0;
         for (auto const k : mine) total += work[k];
         double const goal = comm.sum(total) * first_group / ranks;
-        double low = box.lower[direction], high = box.upper[direction];
+        double low = filled.lower[direction], high = filled.upper[direction];
         for (int halving = 0; halving < 40; ++halving) {
             double const middle = 0.5 * (low + high);
             double below = 0;

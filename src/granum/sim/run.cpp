@@ -136,6 +136,11 @@ std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::s
             fmt::format("overlaps above 10 % of a radius on {} granule steps (largest {:.1f} %): granules are "
                         "soft for the speeds met; a larger contact.youngs_modulus hardens them",
                         steps, 100 * overlap));
+    if (long const late = simulation.comm().max(watch.late_lists); late > 0)
+        warnings.push_back(
+            fmt::format("granules got so fast within a few steps that contacts may have been seen late, {} times: a "
+                        "shorter time.granule_step helps",
+                        late));
     if (simulation.unconverged_steps() > 0)
         warnings.push_back(
             fmt::format("the pressure missed its tolerance on {} of {} gas steps: the ledgers hold, but the gas "
