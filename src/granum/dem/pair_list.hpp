@@ -75,7 +75,7 @@ class PairList
     // Contacts on their way from one list to the next.
     std::vector<PairRows> known_;
     std::vector<double> known_history_;  // and the share of this rank in what they store
-    bool mixed_ = false;  // more than one material
+    bool mixed_ = false;                 // more than one material
     double lost_energy_ = 0;
 };
 }
