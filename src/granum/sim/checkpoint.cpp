@@ -89,7 +89,7 @@ void Simulation::each_common_number(Visit&& visit)
     for (auto& feed : feeds_) visit(feed.placed), visit(feed.mass);
     if (hard_) visit(granule_dt_);
     auto& watch = mover_->watch();
-    visit(watch.largest_overlap), visit(watch.warned_overlaps), visit(watch.rebuilds), visit(watch.late_lists);
+    visit(watch.largest_overlap), visit(watch.warned_overlaps), visit(watch.late_lists), visit(watch.rebuilds);
 }
 
 template <class Visit>
