@@ -259,7 +259,8 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
                 in.rebuild(granules);
             } else if (in.comm.size() > 1) {
                 auto const timing = in.stopwatch.time(Stage::neighbours);
-                in.halo.refresh_motion(in.frame);
+                in.halo.begin_refresh(in.frame);
+                in.halo.end_refresh(in.frame);
             }
             in.all_forces(dt);
         }

@@ -129,7 +129,7 @@ void Halo::fill(Frame& frame, double reach)
     }
 }
 
-void Halo::refresh_motion(Frame& frame)
+void Halo::begin_refresh(Frame const& frame)
 {
     requests_.clear();
     for (auto& side : sides_)
@@ -144,6 +144,10 @@ void Halo::refresh_motion(Frame& frame)
         MPI_Isend(side.out.data(), static_cast<int>(side.out.size()), MPI_DOUBLE, side.rank, 3, comm_.handle(),
                   &requests_.emplace_back());
     }
+}
+
+void Halo::end_refresh(Frame& frame)
+{
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (auto const& side : sides_) {
         double const* got = side.in.data();

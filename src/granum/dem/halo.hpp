@@ -41,8 +41,10 @@ class Halo
 
     //! Appends copies of all granules of other ranks within `reach` (m) of this rank's part. Collective.
     void fill(Frame& frame, double reach);
-    //! Copies position, velocity and spin from the owners. Collective.
-    void refresh_motion(Frame& frame);
+    //! Copies position, velocity and spin from the owners: sends those of this rank now, and takes the others' when it
+    //! ends. Collective.
+    void begin_refresh(Frame const& frame);
+    void end_refresh(Frame& frame);
     //! Copies all that a copy holds. Collective.
     void refresh_all(Frame& frame);
 
@@ -52,7 +54,7 @@ class Halo
         int rank;
         std::vector<std::uint32_t> rows;   // what is sent
         std::size_t first = 0, count = 0;  // rows that arrive
-        std::vector<double> out, in;       // buffers of refresh_motion
+        std::vector<double> out, in;       // buffers of a refresh
     };
 
     par::Partition partition_;

@@ -79,7 +79,8 @@ int Engine::Inside::steps_together(int left) const
 }
 
 // Does `together` steps in one sweep over the layers. Layer k takes its step t when layer k + 1 has taken step t - 1.
-// Ranks exchange layer 0 in each step, which all of them take up first.
+// Ranks exchange layer 0 in each step, which all of them take up first; while its messages are on their way, the other
+// layers go on.
 void Engine::Inside::sweep(Motion const& motion, int together)
 {
     auto const timing = stopwatch.time(Stage::contacts);
@@ -89,15 +90,25 @@ void Engine::Inside::sweep(Motion const& motion, int together)
     auto const steps_of_sweep = static_cast<std::size_t>(together);
     long const before = steps;
     ++watch.sweeps;
-    for (std::size_t front = 0; front + 1 < layers.count() + steps_of_sweep; ++front)
+    bool const many = comm.size() > 1;
+    auto const take_exchanged = [&](std::size_t t) {
+        if (many) halo.end_refresh(frame);
+        forces(0, dt, seen[t]);
+    };
+    for (std::size_t front = 0; front < layers.count() + steps_of_sweep; ++front) {
         for (std::size_t t = 0; t < std::min(steps_of_sweep, front + 1); ++t) {
             std::size_t const layer = front - t;
             if (layer >= layers.count()) continue;
+            if (layer == 0 && t > 0) take_exchanged(t - 1);
             steps = before + static_cast<long>(t) + 1;
             moved[t] = std::max(moved[t], move(motion, layer, 2, true));
-            if (layer == 0 && comm.size() > 1) halo.refresh_motion(frame);
-            forces(layer, dt, seen[t]);
+            if (layer > 0)
+                forces(layer, dt, seen[t]);
+            else if (many)
+                halo.begin_refresh(frame);
         }
+        if (front == steps_of_sweep) take_exchanged(steps_of_sweep - 1);
+    }
     for (std::size_t t = 0; t < steps_of_sweep; ++t) {
         steps = before + static_cast<long>(t) + 1;
         time += dt;
