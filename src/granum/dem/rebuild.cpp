@@ -44,6 +44,8 @@ class RowIndex
 };
 
 constexpr long rebuilds_between_sorts = 30;
+// Of the skin: pairs closer than that are near. Fewer fill their blocks better, more leave fewer contacts elsewhere.
+constexpr double near_part = 0.07;
 }
 
 bool Engine::Inside::strayed() const
@@ -181,7 +183,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     if (many) halo.fill(frame, reach);
 
     layers.make(frame, domain, halo.partition(), comm.rank(), reach);
-    search.find(frame, domain, centre, skin, 0.15 * skin, candidates, *kernel);
+    search.find(frame, domain, centre, skin, near_part * skin, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);
     auto const row_now = [&](std::uint32_t row) {
