@@ -134,7 +134,7 @@ TEST(ObliqueImpact, follows_the_published_curves)
 }
 
 // Sliding throughout, the recoil is that of a rigid body. Where the contact sticks, the published curves are those of
-// codes with other tangential dashpots, and neither of our tangential laws is within their 0.03.
+// codes whose tangential laws are not stated, and neither of ours is within 0.03 of them.
 TEST(SpinningSphere, recoils_as_published_where_it_slides)
 {
     double const radius = 0.1, speed = 0.2, mu = 0.4, e = 0.5, gross = 3.5 * mu * (1 + e);
