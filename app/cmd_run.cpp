@@ -6,7 +6,6 @@
 #include "granum/io/folder_lock.hpp"
 #include "granum/io/units.hpp"
 #include "granum/report/report.hpp"
-#include "granum/sim/build.hpp"
 #include "granum/sim/case_reader.hpp"
 #include "granum/sim/continuation.hpp"
 #include "granum/sim/run.hpp"
@@ -81,9 +80,11 @@ std::optional<double> read_until(Wish const& wish)
     }
 }
 
-//! As many ranks as there are cores, but each with at least two layers of cells of its slab.
+//! As many ranks as there are cores, but each with at least two layers of cells of its slab or, without gas, with
+//! enough granules to be worth its messages.
 int choose_ranks(Wish const& wish, sim::ResolvedCase const& resolved)
 {
+    constexpr long worth_a_rank = 500;
     auto const& data = resolved.data;
     if (data.contact.hard()) {
         if (wish.ranks <= 1) return 1;
@@ -97,7 +98,12 @@ int choose_ranks(Wish const& wish, sim::ResolvedCase const& resolved)
                                 fmt::format("runs on one rank, not on -n {}", wish.ranks),
                                 {"leave -n out, or choose contact.engine = \"soft\""}}});
     }
-    int const most = sim::cells(data)[0];
+    if (!data.gas.present) {
+        if (wish.ranks > 0) return wish.ranks;
+        long const parcels = std::max(data.granules.parcels, static_cast<long>(data.granules.given.size()));
+        return static_cast<int>(std::clamp(parcels / worth_a_rank, 1L, static_cast<long>(cores())));
+    }
+    int const most = data.gas.cells[0];
     if (wish.ranks > most && wish.ranks > 1)
         throw base::CaseError({{"",
                                 0,

@@ -15,7 +15,8 @@ PREFIXES = {
         "read_contact": ["material."],
     },
     "case_granules.cpp": {"read_amount": ["granules.", "granules.batch."], "read_batches": ["granules.batch."]},
-    "case_feed.cpp": {"read_region": ["granules.region.", "feed."], "read_feeds": ["feed."]},
+    "case_feed.cpp": {"read_box": ["granules.region.", "feed.", "output.box."], "read_feeds": ["feed."]},
+    "case_output.cpp": {"read_output": ["output.box."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
     "case_walls.cpp": {"WallReader": ["wall."]},
 }

@@ -167,7 +167,8 @@ TEST(Ranks, agree_with_one_rank_because_history_migrates)
         }
     }
     // The energy that is lost is counted once per pair, however the pairs are split.
-    EXPECT_NEAR(apart.comm.sum(apart.engine->watch().dissipated) / alone.engine->watch().dissipated, 1, 1e-6);
+    EXPECT_NEAR(apart.comm.sum(apart.engine->watch().dissipated.value()) / alone.engine->watch().dissipated.value(), 1,
+                1e-6);
 }
 
 TEST(Ranks, have_the_bits_of_one_rank_across_periodic_faces_and_in_sweeps)

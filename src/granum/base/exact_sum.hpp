@@ -8,8 +8,7 @@
 
 namespace granum::base
 {
-//! Sum of up to 2^31 numbers below 2^63 in size, exact to the last 2^-128 of each. The whole sum of several ranks is
-//! the sum of their limbs.
+//! Sum of up to 2^31 numbers below 2^63 in size, exact to the last 2^-128 of each, of one rank or of several.
 struct ExactSum
 {
     static constexpr std::size_t size = 6;
@@ -22,6 +21,16 @@ struct ExactSum
             limbs[k] += static_cast<std::int64_t>(part);
             x -= part * worth[k];
         }
+    }
+
+    void add(ExactSum const& other)
+    {
+        for (std::size_t k = 0; k < size; ++k) limbs[k] += other.limbs[k];
+    }
+
+    void subtract(ExactSum const& other)
+    {
+        for (std::size_t k = 0; k < size; ++k) limbs[k] -= other.limbs[k];
     }
 
     double value() const

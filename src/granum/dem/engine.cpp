@@ -17,6 +17,12 @@ void const* address_of(Any const& law)
     return std::visit([](auto const& chosen) -> void const* { return &chosen; }, law);
 }
 
+void add(base::ExactSum& sum, kernel::Energy const& of_step)
+{
+    sum.add(of_step.coarse);
+    sum.add(of_step.fine);
+}
+
 std::size_t history_columns(Laws const& laws)
 {
     auto const count = [](auto const& law) {
@@ -61,16 +67,14 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
              .ledger = settings.energy_ledger,
              .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0)};
     pairs.shape(rules.columns);
-    walls.shape(rules.columns, rules.ledger);
+    walls.shape(rules.columns);
     frame.scale_to(laws);
 }
 
 void Engine::Inside::agree_on_failure()
 {
-    bool const mine = !failure.empty();
-    if (comm.max(mine ? 1L : 0L) == 0) return;
-    if (mine) throw base::NumericsError(failure);
-    throw base::NumericsError("stopped: another rank met a failure of the granules");
+    // All say the same, so that whoever is heard first names the granule.
+    if (auto const said = comm.first_said(failure); !said.empty()) throw base::NumericsError(said);
 }
 
 void Engine::Inside::find_non_finite()
@@ -141,8 +145,11 @@ void Engine::Inside::finish_forces(double dt, kernel::Seen const& seen)
     watch.largest_overlap = std::max(watch.largest_overlap, seen.largest_overlap);
     if (seen.largest_overlap > settings.warn_overlap) ++watch.warned_overlaps;
     watch.contacts = seen.contacts;
-    watch.dissipated += seen.dissipated.value() + pairs.take_lost_energy() + walls.take_lost_energy();
-    watch.elastic = seen.elastic.value();
+    watch.elastic = {};
+    add(watch.dissipated, std::exchange(lost, {}));
+    add(watch.dissipated, seen.dissipated);
+    add(watch.elastic, seen.elastic);
+    add(watch.wall_work, walls.work());
     if (seen.largest_overlap > settings.stop_overlap && failure.empty()) name_overlap();
     stop_alone();
 }
@@ -327,7 +334,7 @@ std::vector<Contact> Engine::contacts() const
                            normal_force(frame.material[low] * materials + frame.material[high], overlap,
                                         one.radius * other.radius / (one.radius + other.radius),
                                         1 / (one.inverse_mass + other.inverse_mass), speed),
-                           in.pairs.history(b, lane)});
+                           in.pairs.history(b, lane), std::min(one.radius, other.radius)});
         }
     for (std::size_t k = 0; k < in.walls.size(); ++k) {
         if (!in.walls.touches(k)) continue;
@@ -337,7 +344,7 @@ std::vector<Contact> Engine::contacts() const
         out.push_back({frame.id[row], wall, true, in.walls.overlap(k),
                        normal_force(frame.material[row] * materials + in.settings.walls[wall].material,
                                     in.walls.overlap(k), body.radius, 1 / body.inverse_mass, speed),
-                       in.walls.history(k)});
+                       in.walls.history(k), body.radius});
     }
     return out;
 }

@@ -12,6 +12,7 @@
 // the run up to seven steps after the one that its message names.
 #pragma once
 
+#include "granum/base/exact_sum.hpp"
 #include "granum/base/timer.hpp"
 #include "granum/dem/contact_laws.hpp"
 #include "granum/dem/halo.hpp"
@@ -41,7 +42,9 @@ struct Settings
     double warn_overlap = 0.10, stop_overlap = 0.50;  //!< of a radius
     bool frozen = false;                              //!< granules stay where they are
     bool energy_ledger = true;                        //!< account for what contacts store and dissipate
-    std::string kernel;     //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
+    std::string kernel;  //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
+    double largest_radius =
+        0;                  //!< of a granule that will ever come, m: the unit of energies; 0: of those that are there
     int balance_every = 0;  //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
 };
 
@@ -52,11 +55,15 @@ struct Watch
     long warned_overlaps = 0;    //!< steps on which an overlap above the warning line appeared
     long rebuilds = 0;
     long rebalances = 0;
-    long sweeps = 0;        //!< of several steps each
-    long late_lists = 0;    //!< sweeps in which granules went farther than the list reaches
-    long contacts = 0;      //!< pairs and walls touching at the last step, this rank
-    double dissipated = 0;  //!< J lost in contacts, this rank; of a pair split over two ranks each counts one half
-    double elastic = 0;     //!< J stored in contacts at the last step, this rank
+    long sweeps = 0;      //!< of several steps each
+    long late_lists = 0;  //!< sweeps in which granules went farther than the list reaches
+    long contacts = 0;    //!< pairs and walls touching at the last step, this rank
+    //! @{ Energies on this rank, J; of a pair split over two ranks each counts one half. The sums over all ranks have
+    //! the same bits on any number of them.
+    base::ExactSum dissipated;  //!< lost in contacts
+    base::ExactSum elastic;     //!< stored in contacts at the last step
+    base::ExactSum wall_work;   //!< done by moving walls
+    //! @}
     math::Vec3 wall_force;  //!< sum of the forces of all walls on this rank's granules at the last step, N
 };
 
@@ -68,6 +75,7 @@ struct Contact
     double overlap;       //!< m
     double normal_force;  //!< N, at the present velocities
     History history;
+    double radius;  //!< of the smaller partner, m
 };
 
 class Engine

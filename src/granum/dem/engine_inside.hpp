@@ -28,6 +28,7 @@ struct Engine::Inside
     double time = 0;  // s
     std::vector<particle::Attachment*> attachments;
     Watch watch;
+    kernel::Energy lost;  // in springs of contacts that ended while a list was made
     base::Stopwatch stopwatch;
 
     double skin = 0;       // of the present list, m

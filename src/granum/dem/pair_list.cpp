@@ -25,9 +25,10 @@ void refill(Vector& numbers, std::size_t count, typename Vector::value_type cons
 }
 
 void PairList::make(Frame const& frame, Layers const& layers, Candidates& candidates,
-                    std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before)
+                    std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before,
+                    kernel::Rules const& rules, kernel::Energy& lost)
 {
-    take_known(frame, row_now, owned_before);
+    take_known(frame, row_now, owned_before, rules, lost);
     auto const* const material = frame.material.data();
     mixed_ = std::any_of(material, material + frame.rows(), [&](auto other) { return other != material[0]; });
     std::swap(candidates_, candidates);
@@ -69,14 +70,14 @@ void PairList::make(Frame const& frame, Layers const& layers, Candidates& candid
         double const* const history = known_history_.data() + k * (columns_ + 1);
         if (std::size_t const place = find_near(known_[k].low, known_[k].high); place != nowhere)
             put_history(place, history);
-        else if (columns_ > 6)
-            lost_energy_ += history[columns_] * history[columns_ - 1];
+        else if (rules.ledger)
+            lost.add(rules, history[columns_ - 1], history[columns_]);
     }
 }
 
 // Takes the contacts out of the list, with the rows that their partners have now.
 void PairList::take_known(Frame const& frame, std::function<std::uint32_t(std::uint32_t)> const& row_now,
-                          std::size_t owned_before)
+                          std::size_t owned_before, kernel::Rules const& rules, kernel::Energy& lost)
 {
     known_.clear();
     known_history_.clear();
@@ -93,8 +94,8 @@ void PairList::take_known(Frame const& frame, std::function<std::uint32_t(std::u
                 known_.push_back({low_now, high_now});
                 for (std::size_t c = 0; c < columns_; ++c) known_history_.push_back(from[c * block]);
                 known_history_.push_back(share);
-            } else if (columns_ > 6) {
-                lost_energy_ += share * from[(columns_ - 1) * block];
+            } else if (rules.ledger) {
+                lost.add(rules, from[(columns_ - 1) * block], share);
             }
         }
 }
@@ -126,11 +127,6 @@ History PairList::history(std::size_t b, std::size_t lane) const
     History out{};
     for (std::size_t c = 0; c < columns_; ++c) out[c] = history_[(b * columns_ + c) * block + lane];
     return out;
-}
-
-double PairList::take_lost_energy()
-{
-    return std::exchange(lost_energy_, 0.0);
 }
 
 std::size_t PairList::bytes() const

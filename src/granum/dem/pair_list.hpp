@@ -26,9 +26,10 @@ class PairList
 
     //! Makes the list of `candidates`, which it swaps for those of the list before. `row_now` says where a row of the
     //! list before is now (Frame::lonely or more: nowhere). Histories of contacts go on; what springs of contacts that
-    //! are no candidates any more had stored is passed to `ended` with the number of owned partners that they had.
+    //! are no candidates any more had stored is added to `lost`.
     void make(Frame const& frame, Layers const& layers, Candidates& candidates,
-              std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before);
+              std::function<std::uint32_t(std::uint32_t)> const& row_now, std::size_t owned_before,
+              kernel::Rules const& rules, kernel::Energy& lost);
 
     //! Gives a history to a pair, if it is in the list. For contacts that come from another rank or a checkpoint.
     void set(std::uint32_t row, std::uint32_t other, History const& history);
@@ -49,8 +50,6 @@ class PairList
     std::size_t pairs() const { return pairs_; }
     std::size_t blocks() const { return blocks_.size(); }
     bool empty() const { return blocks_.empty(); }
-    //! What was stored in springs of contacts that ended while a list was made, J.
-    double take_lost_energy();
     std::size_t bytes() const;
     std::size_t bytes_of_step() const;  //!< read or written in a step
 
@@ -61,7 +60,7 @@ class PairList
 
   private:
     void take_known(Frame const& frame, std::function<std::uint32_t(std::uint32_t)> const& row_now,
-                    std::size_t owned_before);
+                    std::size_t owned_before, kernel::Rules const& rules, kernel::Energy& lost);
     void put_history(std::size_t place, double const* history);
     std::size_t find_near(std::uint32_t row, std::uint32_t other) const;
 
@@ -76,6 +75,5 @@ class PairList
     std::vector<PairRows> known_;
     std::vector<double> known_history_;  // and the share of this rank in what they store
     bool mixed_ = false;                 // more than one material
-    double lost_energy_ = 0;
 };
 }

@@ -134,9 +134,10 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
                       "largest granule ({:.4g} m), so that no granule meets another from both sides",
                       domain.size()[d], names[d], 4 * largest);
     skin = next_skin(mean, largest);
-    if (rules.coarse_energy == 0 && largest > 0) {
-        double const force = frame.unit_force * (frame.unit_power == 2 ? largest * largest : largest);
-        double const coarse = kernel::power_of_two_below(force * largest) * 0x1p-30;
+    if (double const radius = settings.largest_radius > 0 ? settings.largest_radius : largest;
+        rules.coarse_energy == 0 && radius > 0) {
+        double const force = frame.unit_force * (frame.unit_power == 2 ? radius * radius : radius);
+        double const coarse = kernel::power_of_two_below(force * radius) * 0x1p-30;
         rules.coarse_energy = 1.5 * 0x1p52 * coarse;
         rules.fine_energy = 1.5 * 0x1p52 * (coarse * 0x1p-28);
     }
@@ -193,8 +194,8 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         }
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
-    pairs.make(frame, layers, candidates, row_now, owned_before);
-    walls.make(frame, layers, skin, largest, row_now);
+    pairs.make(frame, layers, candidates, row_now, owned_before, rules, lost);
+    walls.make(frame, layers, skin, largest, row_now, rules, lost);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
             auto const low = (*index)(record.low);

@@ -82,12 +82,6 @@ WallContacts::WallContacts(std::vector<geometry::Body> const& bodies, Domain con
     go_to(0, 0);
 }
 
-void WallContacts::shape(std::size_t columns, bool ledger)
-{
-    columns_ = columns;
-    ledger_ = ledger;
-}
-
 void WallContacts::clear()
 {
     near_.clear();
@@ -132,7 +126,8 @@ double WallContacts::moved() const
 }
 
 void WallContacts::make(Frame const& frame, Layers const& layers, double skin, double largest,
-                        std::function<std::uint32_t(std::uint32_t)> const& row_now)
+                        std::function<std::uint32_t(std::uint32_t)> const& row_now, kernel::Rules const& rules,
+                        kernel::Energy& lost)
 {
     struct Known
     {
@@ -185,8 +180,8 @@ void WallContacts::make(Frame const& frame, Layers const& layers, double skin, d
     for (auto const& [row, partner, history] : known) {
         if (find(row, body_of(partner)) != nullptr)
             set(row, partner, history);
-        else if (ledger_)
-            lost_energy_ += history[columns_ - 1];
+        else if (rules.ledger)
+            lost.add(rules, history[columns_ - 1], 1);
     }
 }
 
@@ -250,16 +245,17 @@ void WallContacts::set(std::uint32_t row, Id partner, History const& history)
     touching_[k / block] = static_cast<std::uint8_t>(touching_[k / block] | 1u << (k % block));
 }
 
-void WallContacts::end(std::size_t k)
+void WallContacts::end(std::size_t k, kernel::Rules const& rules, kernel::Energy& lost)
 {
-    if (ledger_) lost_energy_ += history_at(k, columns_ - 1);
+    if (rules.ledger) lost.add(rules, history_at(k, columns_ - 1), 1);
     for (std::size_t c = 0; c < columns_; ++c) history_at(k, c) = 0;
     touching_[k / block] = static_cast<std::uint8_t>(touching_[k / block] & ~(1u << (k % block)));
 }
 
 // Sorts contacts into places such that each finds the history of the contact that it goes on from. Normals of the
 // touches are in space.
-void WallContacts::place_touches(Near const& near, double radius, std::span<Nearest const> touches_now)
+void WallContacts::place_touches(Near const& near, double radius, std::span<Nearest const> touches_now,
+                                 kernel::Rules const& rules, kernel::Energy& lost)
 {
     constexpr std::size_t none = most_touches;
     std::array<std::size_t, most_touches> place;
@@ -296,7 +292,7 @@ void WallContacts::place_touches(Near const& near, double radius, std::span<Near
         std::size_t free = none;
         for (std::size_t p = 0; p < near.places; ++p)
             if (!taken[p] && (free == none || (former(free) && !former(p)))) free = p;
-        if (former(free)) end(near.place + free);
+        if (former(free)) end(near.place + free, rules, lost);
         place[t] = free;
         taken[free] = true;
     }
@@ -308,7 +304,7 @@ void WallContacts::place_touches(Near const& near, double radius, std::span<Near
     }
 }
 
-void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame)
+void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost)
 {
     for (std::size_t n = near_begin_[layer]; n < near_begin_[layer + 1]; ++n) {
         Near const& near = near_[n];
@@ -327,7 +323,7 @@ void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame 
         std::size_t const count = body.search.touches(body.pose.to_body(x), radius, facets, scratch_, found);
         if (body.pose.turned)
             for (std::size_t t = 0; t < count; ++t) found[t].normal = body.pose.direction_to_space(found[t].normal);
-        place_touches(near, radius, {found.data(), count});
+        place_touches(near, radius, {found.data(), count}, rules, lost);
         for (std::size_t k = near.place; k < near.place + near.places; ++k) {
             if (overlap_[k] == 0 || body.motions.empty()) continue;
             double const lever = radius - rules.lever_shift * overlap_[k];
@@ -342,7 +338,7 @@ void WallContacts::run(std::size_t layer, kernel::Kernel const& kernel, kernel::
 {
     std::size_t const blocks = block_begin_[layer + 1] - block_begin_[layer];
     if (blocks == 0) return;
-    measure(layer, rules, frame);
+    measure(layer, rules, frame, seen.dissipated);
     std::size_t const first = block * block_begin_[layer];
     auto const numbers = [first](Triples& of) {
         return std::array{of[0].data() + first, of[1].data() + first, of[2].data() + first};
@@ -369,28 +365,31 @@ void WallContacts::run(std::size_t layer, kernel::Kernel const& kernel, kernel::
 
 void WallContacts::finish(kernel::Rules const& rules, Frame const& frame, double dt, par::Communicator const& comm)
 {
-    if (any_motion_ && dt > 0) work_ += power(rules, frame) * dt;
+    work_ = {};
+    if (any_motion_ && rules.ledger) add_work(rules, frame, dt);
     if (!any_servo_) return;
     auto const sums = tally(frame, comm, true);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         auto& body = bodies_[b];
         if (!body.servo) continue;
         Vec3 const force{sums[b][0].value(), sums[b][1].value(), sums[b][2].value()};
-        body.state.speed = geometry::servo_speed(*body.servo, body.state.speed, force, sums[b][6].value(), time_, dt);
+        double const before = body.state.speed;
+        body.state.speed = geometry::servo_speed(*body.servo, before, force, sums[b][6].value(), time_, dt);
+        // This force acts over half of the way behind and half of that ahead, which has another speed.
+        if (comm.root() && rules.ledger)
+            work_.add(rules, 0.5 * dt * (before - body.state.speed) * dot(body.servo->direction, force), 1);
     }
 }
 
-// Rate of work of the moving walls on the granules, W.
-double WallContacts::power(kernel::Rules const& rules, Frame const& frame) const
+// Work of the moving walls on the granules in a step: at the contact, and by the couple beside it.
+void WallContacts::add_work(kernel::Rules const& rules, Frame const& frame, double dt)
 {
-    double sum = 0;
     for (std::size_t k = 0; k < size_; ++k) {
         if (!touches(k) || bodies_[body_[k]].motions.empty()) continue;
         double const lever = frame.radius(row(k)) - rules.lever_shift * overlap_[k];
         Vec3 const force = get(force_, k), couple = get(torque_, k) + lever * cross(normal(k), force);
-        sum += dot(force, velocity(k)) + dot(couple, get(spin_, k));
+        work_.add(rules, (dot(force, velocity(k)) + dot(couple, get(spin_, k))) * dt, 1);
     }
-    return sum;
 }
 
 std::vector<WallContacts::ExactLoad> WallContacts::tally(Frame const& frame, par::Communicator const& comm,
@@ -410,10 +409,7 @@ std::vector<WallContacts::ExactLoad> WallContacts::tally(Frame const& frame, par
         }
         if (body.servo) sums[body_[k]][6].add(1 / frame.bodies[row(k)].inverse_mass);
     }
-    static_assert(sizeof(ExactLoad) == 7 * base::ExactSum::size * sizeof(std::int64_t));
-    if (comm.size() > 1 && !sums.empty())
-        MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size() * 7 * base::ExactSum::size), MPI_INT64_T,
-                      MPI_SUM, comm.handle());
+    if (!sums.empty()) comm.sum(std::span(sums.front().data(), sums.size() * std::tuple_size_v<ExactLoad>));
     return sums;
 }
 

@@ -27,8 +27,8 @@ class WallContacts
     //! The bodies stand where they are at time 0. Of several servos of a body the first counts.
     WallContacts(std::vector<geometry::Body> const& bodies, Domain const& domain);
 
-    //! Number of columns of the histories, and whether the last of them is stored energy.
-    void shape(std::size_t columns, bool ledger);
+    //! Number of columns of the histories.
+    void shape(std::size_t columns) { columns_ = columns; }
     //! Forgets all contacts. Bodies stay where they are.
     void clear();
 
@@ -39,9 +39,10 @@ class WallContacts
     double moved() const;
 
     //! Lists the owned granules closer than `skin` (m) to a body; `largest` is the largest radius of all ranks (m).
-    //! `row_now` as in PairList::make.
+    //! `row_now` and `lost` as in PairList::make.
     void make(Frame const& frame, Layers const& layers, double skin, double largest,
-              std::function<std::uint32_t(std::uint32_t)> const& row_now);
+              std::function<std::uint32_t(std::uint32_t)> const& row_now, kernel::Rules const& rules,
+              kernel::Energy& lost);
 
     //! Finds the contacts of a layer's granules where they are now and adds their forces.
     void run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
@@ -63,10 +64,8 @@ class WallContacts
     Vec3 force() const;  //!< of all bodies on this rank's granules at the last run, N
     //! Loads on all bodies at the last run, over all ranks. Collective.
     std::vector<WallLoad> loads(Frame const& frame, par::Communicator const& comm) const;
-    //! Work of moving walls on this rank's granules since it was last taken, J.
-    double take_work() { return std::exchange(work_, 0.0); }
-    //! What springs of contacts had stored that ended while a list was made, J.
-    double take_lost_energy() { return std::exchange(lost_energy_, 0.0); }
+    //! Work of moving walls on this rank's granules in the last step, J.
+    kernel::Energy const& work() const { return work_; }
 
     //! One state per body; without meaning for bodies without a servo.
     std::vector<geometry::ServoState> servos() const;
@@ -116,12 +115,13 @@ class WallContacts
         std::size_t facet;
     };
 
-    void measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame);
-    void place_touches(Near const& near, double radius, std::span<geometry::Nearest const> touches);
-    void end(std::size_t place);
+    void measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost);
+    void place_touches(Near const& near, double radius, std::span<geometry::Nearest const> touches,
+                       kernel::Rules const& rules, kernel::Energy& lost);
+    void end(std::size_t place, kernel::Rules const& rules, kernel::Energy& lost);
     using ExactLoad = std::array<base::ExactSum, 7>;  // force, torque, mass of the granules that touch a servo
     std::vector<ExactLoad> tally(Frame const& frame, par::Communicator const& comm, bool servos_only) const;
-    double power(kernel::Rules const& rules, Frame const& frame) const;
+    void add_work(kernel::Rules const& rules, Frame const& frame, double dt);
     void look_around(Vec3 const& x, double reach, std::uint32_t body);
     Near const* find(std::uint32_t row, std::uint32_t body) const;
     double& history_at(std::size_t k, std::size_t column)
@@ -139,7 +139,6 @@ class WallContacts
     double time_ = 0;
     bool any_servo_ = false, any_motion_ = false;
     std::size_t columns_ = 6, size_ = 0;
-    bool ledger_ = false;
     std::vector<Near> near_;                                   // by layer, row and body
     std::vector<std::size_t> near_begin_{0}, block_begin_{0};  // of the layers
     Layers const* layers_ = nullptr;
@@ -149,7 +148,7 @@ class WallContacts
     Numbers history_, overlap_;
     Triples normal_, velocity_, spin_, force_, torque_;
     geometry::BodySearch::Scratch scratch_;
-    double lost_energy_ = 0, work_ = 0;
+    kernel::Energy work_;
 };
 
 //! A direction in 40 bits, and back: to 5e-6 rad. Coding what was decoded gives the same code.

@@ -2,6 +2,8 @@
 
 #include "granum/base/type_list.hpp"
 #include "granum/io/case_text.hpp"
+#include "granum/io/hash.hpp"
+#include "granum/io/text_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -24,7 +26,7 @@ struct Material
 
 struct CaseFile::Inside
 {
-    std::string path, text;
+    std::string path, home, text;
     toml::table root;
     std::set<std::string> known;  //!< general keys that were asked for
     std::set<std::string> sections;
@@ -126,9 +128,10 @@ struct CaseFile::Inside
     void unknown_key(std::string const& key, int line, toml::node const& node);
 };
 
-CaseFile::CaseFile(std::string path) : inside_(std::make_unique<Inside>())
+CaseFile::CaseFile(std::string path, std::string home) : inside_(std::make_unique<Inside>())
 {
     inside_->path = std::move(path);
+    inside_->home = home.empty() ? fs::path(inside_->path).parent_path().string() : std::move(home);
     inside_->text = read_case_text(inside_->path);
     inside_->root = parse(inside_->text, inside_->path);
 }
@@ -144,7 +147,12 @@ std::string const& CaseFile::text() const
 }
 std::string CaseFile::beside(std::string const& name) const
 {
-    return (fs::path(inside_->path).parent_path() / name).string();
+    return (fs::path(inside_->home) / name).string();
+}
+void CaseFile::note_contents(std::string const& key, std::string const& path)
+{
+    derived(key + ".contents", fmt::format("hash {}", hash_text(hash_of(read_text(path)))),
+            "of " + fs::path(path).filename().string());
 }
 bool CaseFile::has(std::string const& key) const
 {

@@ -38,8 +38,9 @@ struct Provenance
 class CaseFile
 {
   public:
-    //! Parses the file. Throws base::CaseError where it is missing, not readable or not TOML.
-    explicit CaseFile(std::string path);
+    //! Parses the file; files that it names are beside it or, for a copy of a case, in the folder `home`. Throws
+    //! base::CaseError where it is missing, not readable or not TOML.
+    explicit CaseFile(std::string path, std::string home = "");
     ~CaseFile();
     CaseFile(CaseFile const&) = delete;
     CaseFile& operator=(CaseFile const&) = delete;
@@ -48,6 +49,8 @@ class CaseFile
     std::string const& text() const;  //!< as read
     //! Where a file named in the case is: relative names are relative to the case.
     std::string beside(std::string const& name) const;
+    //! Notes at `key`.contents what the file at `path` holds, so that a run can tell whether it is still the same.
+    void note_contents(std::string const& key, std::string const& path);
 
     //! True where the key or section is written in the file. Does not make the key known.
     bool has(std::string const& key) const;

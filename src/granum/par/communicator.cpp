@@ -48,6 +48,14 @@ void Communicator::sum(std::span<double> values) const
         MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
 }
 
+void Communicator::sum(std::span<base::ExactSum> values) const
+{
+    static_assert(sizeof(base::ExactSum) == base::ExactSum::size * sizeof(std::int64_t));
+    if (size_ > 1)
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size() * base::ExactSum::size), MPI_INT64_T,
+                      MPI_SUM, handle_);
+}
+
 bool Communicator::meet(double seconds) const
 {
     MPI_Request request = MPI_REQUEST_NULL;
@@ -61,6 +69,16 @@ bool Communicator::meet(double seconds) const
 void Communicator::barrier() const
 {
     MPI_Barrier(handle_);
+}
+
+std::string Communicator::first_said(std::string const& mine) const
+{
+    long const speaker = -max(mine.empty() ? -static_cast<long>(size_) : -static_cast<long>(rank_));
+    if (speaker == size_) return "";
+    auto const bytes = std::as_bytes(std::span(mine));
+    auto said = gather(rank_ == speaker ? bytes : bytes.first(0));
+    broadcast(said);
+    return {reinterpret_cast<char const*>(said.data()), said.size()};
 }
 
 std::vector<std::byte> Communicator::exchange(std::span<std::byte const> out, int to, int from) const

@@ -1,10 +1,13 @@
 // The ranks of a run and what they say to each other.
 #pragma once
 
+#include "granum/base/exact_sum.hpp"
+
 #include <mpi.h>
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace granum::par
@@ -25,11 +28,15 @@ class Communicator
     double max(double value) const;
     double min(double value) const;
     long max(long value) const;
-    void sum(std::span<double> values) const;  //!< element by element, result on every rank
+    void sum(std::span<double> values) const;          //!< element by element, result on every rank
+    void sum(std::span<base::ExactSum> values) const;  //!< the same, without rounding
     void barrier() const;
 
     //! True where all ranks come here within `seconds`: a barrier for when some may have failed and never come.
     bool meet(double seconds) const;
+
+    //! What the lowest rank that has something to say says, on every rank; empty where none has. Collective.
+    std::string first_said(std::string const& mine) const;
 
     //! Sends `out` to rank `to` while receiving from rank `from`; either may be -1 for nobody. Any length.
     std::vector<std::byte> exchange(std::span<std::byte const> out, int to, int from) const;

@@ -119,9 +119,10 @@ struct Partition::Balance
         int const first_group = ranks / 2;
         double total = 0;
         for (auto const k : mine) total += work[k];
-        double const goal = comm.sum(total) * first_group / ranks;
+        double const share = static_cast<double>(first_group) / ranks, all = comm.sum(total), goal = all * share;
         double low = filled.lower[direction], high = filled.upper[direction];
-        for (int halving = 0; halving < 40; ++halving) {
+        if (all == 0) low = high = low + share * (high - low);  // nothing to weigh: the length is shared out
+        for (int halving = 0; all > 0 && halving < 40; ++halving) {
             double const middle = 0.5 * (low + high);
             double below = 0;
             for (auto const k : mine)

@@ -36,7 +36,7 @@ class Partition
     //! Slabs along x.
     Partition(Space const& space, Slabs const& slabs);
     //! Cuts so that each rank gets about the same sum of `work` of the points (m) that the ranks hold. Work is counted,
-    //! never timed. Collective.
+    //! never timed; where there is none yet, by length. Collective.
     static Partition balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
                               Communicator const& comm);
 

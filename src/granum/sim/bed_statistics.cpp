@@ -1,10 +1,7 @@
 #include "granum/sim/bed_statistics.hpp"
 
-#include "granum/particle/rows.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <unordered_map>
 
@@ -17,28 +14,24 @@ double const width = std::log(1.01);   // of a class
 constexpr std::size_t classes = 2084;  // to above 1
 enum Sum : std::size_t
 {
-    pairs,
-    wall_pairs,
     overlap,
-    beyond,
-    rows,
     translation,
     rotation,
     potential,
     elastic,
     dissipated,
-    neighbours,
-    count = neighbours + 16
+    wall_work,
+    sum_count
 };
-
-//! To ten digits: the engine sums over contacts in the order of its memory, so that the last digits are not the same
-//! after a restart.
-double ten_digits(double x)
+enum Number : std::size_t
 {
-    if (x == 0 || !std::isfinite(x)) return x;
-    double const unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 9);
-    return std::round(x / unit) * unit;
-}
+    pairs,
+    wall_pairs,
+    beyond,
+    rows,
+    neighbours,
+    number_count = neighbours + 16
+};
 
 std::size_t class_of(double share)
 {
@@ -47,15 +40,17 @@ std::size_t class_of(double share)
 }
 }
 
-BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par::Communicator const& comm)
+BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par::Communicator const& comm,
+                             double criterion)
 {
-    std::array<double, Sum::count> sums{};
+    std::array<base::ExactSum, sum_count> sums;
+    std::array<double, number_count> numbers{};
     std::vector<double> histogram(classes);
     double largest = 0;
 
     std::unordered_map<particle::Id, std::uint32_t> row_of;
-    row_of.reserve(granules.rows());
-    for (std::uint32_t row = 0; row < granules.rows(); ++row) row_of.try_emplace(granules.id[row], row);
+    row_of.reserve(granules.owned);
+    for (std::uint32_t row = 0; row < granules.owned; ++row) row_of.try_emplace(granules.id[row], row);
     std::vector<std::uint8_t> touching(granules.owned);
     auto contacts = mover.contacts();
     // A pair that touches across a periodic face may be seen from both of its sides.
@@ -66,54 +61,50 @@ BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par:
     for (auto const& contact : contacts) {
         // A pair split over two ranks is known to both: each counts for its own granule, the owner of the lower for
         // both.
-        double radius = std::numeric_limits<double>::infinity();
         bool mine = contact.wall;
         auto const see = [&](particle::Id id, bool lower) {
             auto const found = row_of.find(id);
-            if (found == row_of.end()) return;
-            radius = std::min(radius, granules.radius[found->second]);
-            if (found->second >= granules.owned) return;
-            if (!contact.wall)
-                touching[found->second] = static_cast<std::uint8_t>(std::min(15, touching[found->second] + 1));
-            if (lower) mine = true;
+            if (contact.wall || found == row_of.end()) return;
+            touching[found->second] = static_cast<std::uint8_t>(std::min(15, touching[found->second] + 1));
+            mine = mine || lower;
         };
         see(contact.low, true);
-        if (!contact.wall) see(contact.high, false);
-        if (!mine || !std::isfinite(radius)) continue;
-        double const share = contact.overlap / radius;
-        sums[contact.wall ? wall_pairs : pairs] += 1;
-        sums[overlap] += share;
-        sums[beyond] += share > overlap_criterion;
+        see(contact.high, false);
+        if (!mine) continue;
+        double const share = contact.overlap / contact.radius;
+        numbers[contact.wall ? wall_pairs : pairs] += 1;
+        numbers[beyond] += share > criterion;
+        sums[overlap].add(share);
         histogram[class_of(share)] += 1;
         largest = std::max(largest, share);
     }
     math::Vec3 const gravity = mover.settings().gravity;
-    for (std::size_t const row :
-         particle::rows_by_identity(granules)) {  // so that sums do not know the order in memory
+    for (std::size_t row = 0; row < granules.owned; ++row) {
         double const mass = granules.mass[row], radius = granules.radius[row];
-        sums[translation] += 0.5 * mass * norm2(granules.velocity[row]);
-        sums[rotation] += 0.2 * mass * radius * radius * norm2(granules.spin[row]);
-        sums[potential] -= mass * dot(gravity, granules.position[row]);
-        sums[neighbours + touching[row]] += 1;
+        sums[translation].add(0.5 * mass * norm2(granules.velocity[row]));
+        sums[rotation].add(0.2 * mass * radius * radius * norm2(granules.spin[row]));
+        sums[potential].add(-mass * dot(gravity, granules.position[row]));
+        numbers[neighbours + touching[row]] += 1;
     }
-    sums[rows] = static_cast<double>(granules.owned);
+    numbers[rows] = static_cast<double>(granules.owned);
     auto const& watch = mover.watch();
-    sums[elastic] = watch.elastic;
-    sums[dissipated] = watch.dissipated;
+    sums[elastic] = watch.elastic, sums[dissipated] = watch.dissipated, sums[wall_work] = watch.wall_work;
     comm.sum(sums);
+    comm.sum(numbers);
     comm.sum(histogram);
 
     BedStatistics out;
-    out.contacts = std::lround(sums[pairs]);
-    out.wall_contacts = std::lround(sums[wall_pairs]);
-    double const all = sums[pairs] + sums[wall_pairs];
-    if (sums[rows] > 0) {
-        out.coordination = 2 * sums[pairs] / sums[rows];
-        for (std::size_t k = 0; k < out.neighbours.size(); ++k) out.neighbours[k] = sums[neighbours + k] / sums[rows];
+    out.contacts = std::lround(numbers[pairs]);
+    out.wall_contacts = std::lround(numbers[wall_pairs]);
+    double const all = numbers[pairs] + numbers[wall_pairs];
+    if (numbers[rows] > 0) {
+        out.coordination = 2 * numbers[pairs] / numbers[rows];
+        for (std::size_t k = 0; k < out.neighbours.size(); ++k)
+            out.neighbours[k] = numbers[neighbours + k] / numbers[rows];
     }
     if (all > 0) {
-        out.overlap_mean = sums[overlap] / all;
-        out.overlap_beyond = sums[beyond] / all;
+        out.overlap_mean = sums[overlap].value() / all;
+        out.overlap_beyond = numbers[beyond] / all;
         double below = 0;
         for (std::size_t k = 0; k < classes && below < 0.99 * all; ++k) {
             below += histogram[k];
@@ -125,9 +116,9 @@ BedStatistics bed_statistics(particle::Store const& granules, Mover& mover, par:
     out.overlap_largest = hard ? hard->largest_overlap : comm.max(largest);
     out.collisions = hard ? hard->collisions : 0;
     out.overlap_p99 = std::min(out.overlap_p99, out.overlap_largest);
-    out.translation = sums[translation], out.rotation = sums[rotation];
-    out.potential = sums[potential], out.elastic = ten_digits(sums[elastic]),
-    out.dissipated = ten_digits(sums[dissipated]);
+    out.translation = sums[translation].value(), out.rotation = sums[rotation].value();
+    out.potential = sums[potential].value(), out.elastic = sums[elastic].value();
+    out.dissipated = sums[dissipated].value(), out.wall_work = sums[wall_work].value();
     for (auto const& load : mover.wall_loads()) out.wall_force += load.force;
     return out;
 }

@@ -141,6 +141,7 @@ dem::Settings granule_settings(Case const& data)
     settings.periodic = data.periodic;
     settings.gravity = data.gravity;
     settings.frozen = data.granules.frozen;
+    settings.largest_radius = largest_radius(data);
     return settings;
 }
 
@@ -227,7 +228,7 @@ std::vector<spray::Nozzle> nozzles(Case const& data)
 
 spray::FlightSettings flight_settings(Case const& data)
 {
-    auto const number = cells(data);
+    auto const number = data.gas.cells;
     Vec3 const size = data.chamber.upper() - data.chamber.lower();
     double const cell = std::min({size.x / number[0], size.y / number[1], size.z / number[2]});
     return {.liquid = spray_liquid(data),
@@ -342,14 +343,5 @@ double granule_step(Case const& data)
     if (data.contact.hard()) return 1e-3 * least;  // the first; the others follow from the collisions
     for (auto const& bound : granule_step_bounds(data, collision_speed(data))) least = std::min(least, bound.seconds);
     return least;
-}
-
-std::array<int, 3> cells(Case const& data)
-{
-    if (data.gas.present) return data.gas.cells;
-    // Without gas the cells only cut the domain among ranks: about two diameters wide.
-    Vec3 const size = data.chamber.upper() - data.chamber.lower();
-    double const wide = std::max(4 * largest_radius(data), 1e-9);
-    return {std::clamp(static_cast<int>(size.x / wide), 1, 1000), 1, 1};
 }
 }

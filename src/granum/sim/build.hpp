@@ -54,7 +54,4 @@ void add_granule(particle::Store& granules, GranuleCase const& one);
 
 //! The step that `granum run` takes if the case names none: the least of the bounds; `speed` (m/s) is a typical speed.
 double granule_step(Case const& data);
-
-//! Cells along the three directions: those of the gas, or for a run without gas enough for the ranks along x.
-std::array<int, 3> cells(Case const& data);
 }

@@ -213,6 +213,20 @@ struct TimeCase
     std::optional<double> checkpoint_every;        //!< s of process, beside the wall time
 };
 
+//! [[output.box]]: a box in which the share of solids is measured.
+struct BoxCase
+{
+    std::string name;
+    RegionCase region;
+};
+
+//! What [output] asks for besides its intervals.
+struct OutputCase
+{
+    double overlap_criterion = 0.003;  //!< share of a radius: contacts beyond it are counted [R]
+    std::vector<BoxCase> boxes;
+};
+
 struct Case
 {
     std::string title = "untitled";
@@ -233,6 +247,7 @@ struct Case
     ProductCase product;
     StartCase start;
     TimeCase time;
+    OutputCase output;
 };
 
 //! Where a resolved value came from, for `granum explain` and the stored case.

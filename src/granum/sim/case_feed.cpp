@@ -8,13 +8,12 @@ namespace granum::sim
 {
 using io::Dimension;
 
-namespace
-{
-RegionCase read_region(io::CaseFile& file, std::string const& key, geometry::Chamber const& chamber)
+RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chamber const& chamber,
+                    std::string const& doc)
 {
     RegionCase region;
-    region.lower = file.vector(key + "lower", Dimension::length, std::nullopt, "corner of the box where they appear");
-    region.upper = file.vector(key + "upper", Dimension::length, std::nullopt, "corner of the box where they appear");
+    region.lower = file.vector(key + "lower", Dimension::length, std::nullopt, doc);
+    region.upper = file.vector(key + "upper", Dimension::length, std::nullopt, doc);
     if (file.wrong(key + "lower") || file.wrong(key + "upper")) return region;
     Vec3 const low = chamber.lower(), high = chamber.upper();
     for (std::size_t d = 0; d < 3; ++d) {
@@ -30,13 +29,17 @@ RegionCase read_region(io::CaseFile& file, std::string const& key, geometry::Cha
     }
     return region;
 }
+
+namespace
+{
+constexpr auto where_they_appear = "corner of the box where they appear";
 }
 
 void read_region(io::CaseFile& file, Case& data)
 {
     file.section("granules.region");
     if (file.has("granules.region"))
-        data.granules.region = read_region(file, "granules.region.", data.chamber);
+        data.granules.region = read_box(file, "granules.region.", data.chamber, where_they_appear);
     else
         file.know("granules.region.lower"), file.know("granules.region.upper");
 }
@@ -53,7 +56,7 @@ void read_feeds(io::CaseFile& file, Case& data)
         auto const name = file.name(key + "batch", names.size() == 1 ? std::optional(names[0]) : std::nullopt,
                                     "what comes in", names, "a batch of [granules]");
         auto const found = std::find(names.begin(), names.end(), name);
-        feed.region = read_region(file, key, data.chamber);
+        feed.region = read_box(file, key, data.chamber, where_they_appear);
         feed.rate =
             file.quantity(key + "rate", Dimension::mass_flow, 0, "0: as fast as there is room", io::not_negative);
         feed.start = file.quantity(key + "start", Dimension::time, 0, "when it begins", io::not_negative);

@@ -3,6 +3,7 @@
 #include "granum/io/case_file.hpp"
 #include "granum/io/data_folder.hpp"
 #include "granum/sim/case_sections.hpp"
+#include "granum/sim/continuation.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +34,7 @@ std::string take_material(io::CaseFile& file, std::string const& key, std::vecto
 ResolvedCase read_case(std::string const& path, Purpose purpose)
 {
     using io::Dimension;
-    io::CaseFile file(path);
+    io::CaseFile file(path, home_of(path));
     ResolvedCase out;
     Case& data = out.data;
     data.file = path;
@@ -55,6 +56,8 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
     read_cells(file, data);
     read_spray(file, data, purpose);
     read_process(file, data, purpose);
+    read_time(file, data, purpose);
+    read_output(file, data);
     cross_check(file, data, purpose, out.warnings);
     file.finish();
 

@@ -16,7 +16,15 @@ void read_feeds(io::CaseFile& file, Case& data);                      //!< after
 void read_gas(io::CaseFile& file, Case& data, Purpose purpose);
 void read_cells(io::CaseFile& file, Case& data);  //!< after the apparatus and the granules
 void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
-void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [drying] [product] [start] [time] [output]
+void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [drying] [product] [start]
+void read_time(io::CaseFile& file, Case& data, Purpose purpose);     //!< and the intervals of [output]
+void read_output(io::CaseFile& file, Case& data);                    //!< after the apparatus
+
+//! The box between `key`lower and `key`upper, within the apparatus.
+RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chamber const& chamber,
+                    std::string const& doc);
+//! A name that heads columns of a CSV file must not break them.
+void check_column_name(io::CaseFile& file, std::string const& key, std::string const& name);
 
 void check_hard_spheres(io::CaseFile& file, Case const& data);  //!< after all others
 

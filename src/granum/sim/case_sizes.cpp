@@ -27,6 +27,7 @@ std::optional<SizeDistribution> read_table(io::CaseFile& file, std::string const
     io::Series series;
     try {
         series = io::read_series(file.beside(name));
+        file.note_contents(key, file.beside(name));
     } catch (base::Error const& error) {
         return fault(error.what());
     }

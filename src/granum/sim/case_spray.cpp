@@ -121,23 +121,5 @@ void read_process(io::CaseFile& file, Case& data, Purpose purpose)
         file.optional_quantity("start.bed_temperature", Dimension::temperature, "instead of the balance's", warm);
     start.gas_temperature =
         file.optional_quantity("start.gas_temperature", Dimension::temperature, "instead of the balance's", warm);
-
-    TimeCase& time = data.time;
-    bool const whole = purpose == Purpose::run;
-    time.duration = file.quantity("time.duration", Dimension::time, whole ? std::nullopt : std::optional(time.duration),
-                                  "to be simulated", io::positive);
-    time.granule_step =
-        file.optional_quantity("time.granule_step", Dimension::time, "otherwise from the bounds", io::positive);
-    time.gas_step = file.optional_quantity("time.gas_step", Dimension::time, "otherwise from the bounds", io::positive);
-    time.output_interval = file.quantity("output.interval", Dimension::time, time.output_interval,
-                                         "of pictures and ParaView files", io::positive);
-    time.series_interval = file.quantity("output.series_interval", Dimension::time, time.series_interval,
-                                         "of timeseries.csv", io::positive);
-    time.checkpoint_interval =
-        file.quantity("output.checkpoint_interval", Dimension::time, time.checkpoint_interval,
-                      "wall time between checkpoints; the first comes after 2 min at the latest", io::positive);
-    time.checkpoint_every =
-        file.optional_quantity("output.checkpoint_every", Dimension::time,
-                               "time of process between checkpoints, beside the wall time", io::positive);
 }
 }

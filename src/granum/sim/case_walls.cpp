@@ -85,6 +85,7 @@ struct WallReader
             auto mesh = geometry::read_stl(file.beside(path.string()), options);
             if (mesh.degenerate > 0)
                 file.derived(key + "left_out", fmt::format("{}", mesh.degenerate), "triangles without area");
+            file.note_contents(key + "file", file.beside(path.string()));
             body.shapes.push_back(std::move(mesh.mesh));
         } catch (base::Error const& error) {
             file.mistake(key + "file", error.what(), {"the path is relative to the case"});
@@ -208,6 +209,7 @@ struct WallReader
     void read()
     {
         body.name = file.words(key + "name", "wall-" + key.substr(5, key.size() - 7), "in walls.csv and ParaView");
+        check_column_name(file, key + "name", body.name);
         body.material = read_material(file, data.contact, key + "material", 1, "it is made of");
         shape();
         motion();

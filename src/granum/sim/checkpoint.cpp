@@ -70,7 +70,8 @@ struct Simulation::Saved
     std::vector<spray::Droplet> droplets;
     std::vector<drying::Event> events;
     std::vector<double> common, shares;
-    std::vector<GasPart> gas;  //!< by the rank that wrote
+    std::array<base::ExactSum, 3> energies;  //!< dissipated, elastic, work of walls
+    std::vector<GasPart> gas;                //!< by the rank that wrote
     std::vector<double> preconditioner;
 };
 
@@ -101,8 +102,6 @@ void Simulation::each_share(Visit&& visit)
     visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
     visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);
     visit(last_.enthalpy_in), visit(last_.enthalpy_out);
-    auto& watch = mover_->watch();
-    visit(watch.dissipated);
 }
 
 io::Sections Simulation::save()
@@ -113,6 +112,8 @@ io::Sections Simulation::save()
     each_share([&](auto const& number) { shares.push_back(static_cast<double>(number)); });
     out.push_back(io::section_of("common", common));
     out.push_back(io::section_of("shares", shares));
+    auto const& watch = mover_->watch();
+    out.push_back(io::section_of("energies", std::vector{watch.dissipated, watch.elastic, watch.wall_work}));
 
     particle::for_each_column(granules_, [&](auto const& column) {
         auto const bytes = std::as_bytes(std::span(column.values).first(granules_.owned));
@@ -169,11 +170,17 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
         };
         bool const mine = out.same_ranks && writer == rank;
 
-        // On as many ranks each takes its own; otherwise who owns the place.
+        // On as many ranks each takes its own; otherwise who owns the place or, without gas, an equal share, from which
+        // space is cut.
         auto const position = io::values_of<math::Vec3>(find("granules.position"));
         std::vector<std::size_t> rows;
+        auto const takes = [&](std::size_t row) {
+            if (out.same_ranks) return mine;
+            if (case_.gas.present) return slabs_.owner(position[row].x) == rank;
+            return row % static_cast<std::size_t>(comm_.size()) == static_cast<std::size_t>(rank);
+        };
         for (std::size_t row = 0; row < position.size(); ++row)
-            if (out.same_ranks ? mine : slabs_.owner(position[row].x) == rank) rows.push_back(row);
+            if (takes(row)) rows.push_back(row);
         std::size_t const first = out.granules.rows();
         out.granules.resize(first + rows.size());
         particle::for_each_column(out.granules, [&](auto& column) {
@@ -200,6 +207,9 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
         if (mine || (!out.same_ranks && rank == 0)) {
             out.shares.resize(std::max(out.shares.size(), shares.size()));
             for (std::size_t k = 0; k < shares.size(); ++k) out.shares[k] += shares[k];
+            auto const energies = io::values_of<base::ExactSum>(find("energies"));
+            for (std::size_t k = 0; k < std::min(energies.size(), out.energies.size()); ++k)
+                out.energies[k].add(energies[k]);
             if (case_.spray.present) append(out.events, io::values_of<drying::Event>(find("events")));
         }
         if (case_.spray.present) {
@@ -258,6 +268,8 @@ void Simulation::take_process(Saved const& saved)
     };
     each_common_number(take(saved.common));
     if (!saved.shares.empty()) each_share(take(saved.shares));
+    auto& watch = mover_->watch();
+    watch.dissipated = saved.energies[0], watch.elastic = saved.energies[1], watch.wall_work = saved.energies[2];
     droplets_ = saved.droplets;
     events_ = saved.events;
     if (!has_gas()) return;

@@ -16,7 +16,13 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr std::string_view first_word = "file = ";
+constexpr std::string_view file_word = "file = ", beside_word = "file from here = ";
+
+//! The case file that a run was started from, as an absolute path and from the run folder.
+struct Source
+{
+    std::string file, from_here;
+};
 
 bool shapes(std::string const& key)
 {
@@ -38,14 +44,35 @@ std::map<std::string, std::string> by_key(std::string const& text)
     return out;
 }
 
+Source source_of(std::string const& folder)
+{
+    Source out;
+    std::istringstream lines(io::read_text(record_of(folder)));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(file_word)) out.file = line.substr(file_word.size());
+        if (line.starts_with(beside_word)) out.from_here = line.substr(beside_word.size());
+    }
+    return out;
+}
+
+//! The case file of a source where it is now: a case and its run folder may have moved together.
+std::string found(Source const& source, std::string const& folder)
+{
+    auto const moved = (fs::path(folder) / source.from_here).lexically_normal().string();
+    return !fs::exists(source.file) && !source.from_here.empty() && fs::exists(moved) ? moved : source.file;
+}
+
 //! Granules that are given one by one are compared as a whole.
 std::string given_hash(std::vector<GranuleCase> const& given)
 {
     io::Hash hash;
-    for (auto const& granule : given)
+    for (auto const& granule : given) {
+        std::array const numbers{static_cast<double>(granule.id), static_cast<double>(granule.material), granule.count};
+        hash.add(std::as_bytes(std::span(numbers)));
         for (auto const& vector :
              {granule.position, granule.velocity, granule.spin, math::Vec3{granule.diameter, granule.density, 0}})
             hash.add(std::as_bytes(std::span(&vector, 1)));
+    }
     return io::hash_text(hash.digest());
 }
 
@@ -77,9 +104,19 @@ void remember_case(std::string const& folder, ResolvedCase const& resolved)
 {
     std::error_code there;
     fs::create_directories(folder + "/checkpoint", there);
-    io::replace_text(record_of(folder),
-                     fmt::format("{}{}\n", first_word, fs::absolute(resolved.data.file).lexically_normal().string()) +
-                         shaping_values(resolved));
+    // A run that goes on from its own copy of the case still belongs to the file that it was started from.
+    bool const copy = fs::exists(record_of(folder)) && fs::exists(folder + "/case.toml") &&
+                      fs::equivalent(resolved.data.file, folder + "/case.toml");
+    Source source;
+    if (copy) {
+        source = source_of(folder);
+    } else {
+        auto const file = fs::absolute(resolved.data.file).lexically_normal();
+        source = {file.string(), file.lexically_relative(fs::absolute(folder).lexically_normal()).string()};
+    }
+    io::replace_text(
+        record_of(folder),
+        fmt::format("{}{}\n{}{}\n", file_word, source.file, beside_word, source.from_here) + shaping_values(resolved));
 }
 
 bool is_run_folder(std::string const& folder)
@@ -89,19 +126,27 @@ bool is_run_folder(std::string const& folder)
 
 std::string case_file_of(std::string const& folder)
 {
-    auto const text = io::read_text(record_of(folder));
-    auto const first = text.substr(0, text.find('\n'));
-    // The copy beside the results is the one that was run; files that it names lie beside the original.
-    auto const copy = folder + "/case.toml";
-    auto const original = first.starts_with(first_word) ? first.substr(first_word.size()) : copy;
-    bool const untouched = fs::exists(original) && fs::exists(copy) && io::read_text(original) == io::read_text(copy);
+    auto const copy = folder + "/case.toml", original = found(source_of(folder), folder);
+    bool const untouched =
+        fs::exists(original) && (!fs::exists(copy) || io::read_text(original) == io::read_text(copy));
     return untouched ? original : copy;
+}
+
+std::string home_of(std::string const& path)
+{
+    auto const file = fs::path(path);
+    auto const folder = file.parent_path().string();
+    std::string const here = folder.empty() ? "." : folder;
+    if (file.filename() != "case.toml" || !is_run_folder(here)) return folder;
+    auto const original = found(source_of(here), here);
+    bool const itself = fs::exists(original) && fs::exists(file) && fs::equivalent(original, file);
+    return itself ? folder : home_of(original);  // a run may have been started from the copy of another
 }
 
 void refuse_other_case(std::string const& folder, ResolvedCase const& resolved)
 {
     auto was = by_key(io::read_text(record_of(folder)));
-    was.erase("file");
+    was.erase("file"), was.erase("file from here");
     auto const is = by_key(shaping_values(resolved));
     std::vector<std::string> hints;
     for (auto const& [key, value] : was) {

@@ -17,8 +17,12 @@ void remember_case(std::string const& folder, ResolvedCase const& resolved);
 //! True where `folder` is one that `granum run` wrote and can go on with.
 bool is_run_folder(std::string const& folder);
 
-//! The case file that the run in `folder` was started from, or its copy there where that is gone.
+//! The case file that the run in `folder` was started from, or its copy there where that is gone or was changed.
 std::string case_file_of(std::string const& folder);
+
+//! The folder that names in the case file at `path` are relative to: its own or, for the copy in a run folder, that of
+//! the case file that the run was started from.
+std::string home_of(std::string const& path);
 
 //! Throws base::CaseError with every value in which the case differs from that of the run in `folder`.
 void refuse_other_case(std::string const& folder, ResolvedCase const& resolved);

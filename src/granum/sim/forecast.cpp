@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 namespace granum::sim
@@ -56,12 +56,12 @@ double largest_overlap(Case const& data, double radius, double speed)
         0.4);
 }
 
-//! Contact-like evaluations per second of one core, timed for 20 ms: roots and divisions that wait for each other, as a
-//! contact's do.
+//! Contact-like evaluations per second of one core, timed for 20 ms of processor time: roots and divisions that wait
+//! for each other, as a contact's do.
 double kernel_rate()
 {
-    using Clock = std::chrono::steady_clock;
-    auto const start = Clock::now();
+    auto const now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+    double const start = now();
     double seconds = 0, x = 1.1;
     long done = 0;
     while (seconds < 0.02) {
@@ -70,19 +70,20 @@ double kernel_rate()
             x += (1.2 - r) * std::sqrt(r) / r;
         }
         done += 1000;
-        seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        seconds = now() - start;
     }
     return std::isfinite(x) ? static_cast<double>(done) / seconds : 1;  // the use of x keeps the loop
 }
 
-// The estimate of wall time counts work in evaluations of the kernel above. How many a granule and step (contacts,
-// search, motion) and a cell and gas step (momentum, pressure iterations, exchange) take is an assumption, not a
-// measurement, so the estimate gives an order of magnitude.
-constexpr double evaluations_per_granule_step = 3;
+// The estimate of wall time counts work in evaluations of the kernel above. Those of a granule and step, its bytes and
+// those of a rank are measured on granules alone, doc/howto/size-a-run.md says how; on other processors the ratio of
+// the two kernels is another. What a cell and gas step (momentum, pressure iterations, exchange) takes is assumed.
+constexpr double evaluations_per_granule_step = 6;
 constexpr double evaluations_per_cell_step = 30;
-constexpr double bytes_per_parcel = 2500;  //!< columns, neighbour list, contact history, output buffers (assumed)
-constexpr double bytes_per_cell = 800;     //!< fields and the rows of the pressure matrix (assumed)
-constexpr double bytes_per_rank = 60e6;    //!< program, libraries, message passing (assumed)
+constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
+constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
+constexpr double bytes_per_cell = 800;          //!< fields and the rows of the pressure matrix (assumed)
+constexpr double bytes_per_rank = 60e6;         //!< program, libraries
 
 void add_warnings(Case const& data, Forecast& out)
 {
@@ -212,7 +213,8 @@ Forecast forecast(Case const& data, int ranks)
     if (has_balance(data)) out.balance = balance(data);
 
     double const parcels = static_cast<double>(out.parcels), cells = static_cast<double>(out.cells);
-    out.memory = parcels * bytes_per_parcel + cells * bytes_per_cell + ranks * bytes_per_rank;
+    double const each = bytes_per_parcel + (data.gas.present ? bytes_of_gas_and_layer : 0);
+    out.memory = parcels * each + cells * bytes_per_cell + ranks * bytes_per_rank;
     double work = 0;
     if (out.granule_step > 0) work += data.time.duration / out.granule_step * parcels * evaluations_per_granule_step;
     if (out.gas_step > 0) work += data.time.duration / out.gas_step * cells * evaluations_per_cell_step;

@@ -19,7 +19,8 @@ void HardMover::advance(particle::Store& granules, double dt, int steps)
     met_ = met() - before;
     interval_ += dt * steps;
     watch_.largest_overlap = seen.largest_overlap;
-    watch_.dissipated = seen.dissipated;
+    watch_.dissipated = {};
+    watch_.dissipated.add(seen.dissipated);
 }
 
 std::vector<dem::WallLoad> HardMover::wall_loads() const

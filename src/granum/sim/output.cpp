@@ -167,6 +167,7 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
       simulation_(simulation),
       root_(simulation.comm().root()),
       walls_(folder_, simulation),
+      boxes_(folder_, simulation),
       granules_(folder_ + "/granules.pvd"),
       droplets_(folder_ + "/droplets.pvd"),
       gas_(folder_ + "/gas.pvd"),
@@ -203,6 +204,7 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
                                           {"potential_energy", "J"},
                                           {"elastic_energy", "J"},
                                           {"dissipated_energy", "J"},
+                                          {"wall_work", "J"},
                                           {"wall_force_x", "N"},
                                           {"wall_force_y", "N"},
                                           {"wall_force_z", "N"},
@@ -229,9 +231,11 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
 void Output::sample()
 {
     Sample const s{simulation_.time(), simulation_.readings(), simulation_.totals(),
-                   bed_statistics(simulation_.granules(), simulation_.mover(), simulation_.comm()),
+                   bed_statistics(simulation_.granules(), simulation_.mover(), simulation_.comm(),
+                                  simulation_.data().output.overlap_criterion),
                    simulation_.traffic()};
     walls_.sample();
+    boxes_.sample();
     simulation_.mover().begin_interval();
     if (!root_) return;
     samples_.push_back(s);
@@ -244,7 +248,7 @@ void Output::write(Sample const& s)
     auto const& t = s.totals;
     double const gone = s.traffic.left_energy - s.traffic.fed_energy;
     energy_passed_ = std::max(energy_passed_, s.bed.translation + s.bed.rotation + s.bed.dissipated);
-    energy_residual_ = s.bed.energy() + s.bed.dissipated + gone - samples_.front().bed.energy();
+    energy_residual_ = s.bed.energy() + s.bed.dissipated + gone - s.bed.wall_work - samples_.front().bed.energy();
     std::vector<double> row{s.time,
                             r.bed_temperature,
                             r.outlet_temperature,
@@ -273,6 +277,7 @@ void Output::write(Sample const& s)
                             s.bed.potential,
                             s.bed.elastic,
                             s.bed.dissipated,
+                            s.bed.wall_work,
                             s.bed.wall_force.x,
                             s.bed.wall_force.y,
                             s.bed.wall_force.z,

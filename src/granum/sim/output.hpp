@@ -9,6 +9,7 @@
 #include "granum/product/aggregate.hpp"
 #include "granum/product/all.hpp"
 #include "granum/sim/bed_statistics.hpp"
+#include "granum/sim/box_output.hpp"
 #include "granum/sim/simulation.hpp"
 #include "granum/sim/wall_output.hpp"
 
@@ -48,12 +49,13 @@ class Output
     std::vector<Sample> const& samples() const { return samples_; }
     std::vector<product::LayerSum> const& layers() const { return layers_; }  //!< by granule, sprayed events only
     long event_count() const { return event_count_; }
-    //! @{ Mechanical energy now, lost and gone out less that at the start and brought in, J; and the largest sum of
-    //! motion and loss met, J. Moving walls and the gas do work that is not in it.
+    //! @{ Mechanical energy now, lost and gone out less that at the start, brought in and done by moving walls, J; and
+    //! the largest sum of motion and loss met, J. The gas does work that is not in it.
     double energy_residual() const { return energy_residual_; }
     double energy_passed() const { return energy_passed_; }
     //! @}
     io::GranuleView const& last_view() const { return view_; }
+    std::vector<BoxContent> const& boxes() const { return boxes_.last(); }  //!< as the case has them
 
   private:
     void go_on(io::Sections const& saved);
@@ -67,6 +69,7 @@ class Output
     std::unique_ptr<io::EventsWriter> events_;
     std::unique_ptr<io::RowLog> event_log_;  //!< the same rows in our own format, from which events.h5 can be made anew
     WallOutput walls_;
+    BoxOutput boxes_;
     io::Collection granules_, droplets_, gas_;
     std::vector<Sample> samples_;
     std::vector<product::LayerSum> layers_;

@@ -28,6 +28,7 @@ io::Sections Output::save() const
                      io::section_of("output.droplets", letters(droplets_.entries())),
                      io::section_of("output.gas", letters(gas_.entries()))};
     walls_.save(out);
+    boxes_.save(out);
     if (event_log_) out.push_back(io::section_of("output.events", std::vector<io::RowLog::Mark>{event_log_->mark()}));
     return out;
 }
@@ -44,6 +45,7 @@ void Output::go_on(io::Sections const& saved)
     droplets_.go_on(text_of(find("output.droplets")));
     gas_.go_on(text_of(find("output.gas")));
     walls_.go_on(saved);
+    boxes_.go_on(saved);
     if (event_log_) {
         event_log_->go_on(io::values_of<io::RowLog::Mark>(find("output.events")).at(0),
                           [&](std::span<double const> row) { events_->append(row); });

@@ -167,8 +167,12 @@ void Simulation::place_granules()
     } else {
         batch.parcels = static_cast<long>(list.size());
     }
-    for (auto& one : list) {
-        if (slabs_.owner(one.position.x) != comm_.rank()) continue;
+    // Without gas each rank begins with an equal share, from which space is cut; the engine sends them to their ranks.
+    auto const ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        auto& one = list[k];
+        bool const mine = case_.gas.present ? slabs_.owner(one.position.x) == comm_.rank() : k % ranks == rank;
+        if (!mine) continue;
         one.density = density_of(case_, one);
         add_granule(granules_, one);
     }
@@ -204,9 +208,10 @@ void Simulation::settle()
             engine_->advance(granules_, granule_dt_, stride);
             for (std::size_t row = 0; !pouring && row < granules_.owned; ++row) granules_.velocity[row] *= slowed;
         }
-        double squares = 0;
-        for (std::size_t row = 0; row < granules_.owned; ++row) squares += math::norm2(granules_.velocity[row]);
-        double const mean = comm_.sum(squares) / static_cast<double>(case_.granules.parcels);
+        std::array<base::ExactSum, 1> squares;  // when granules rest must not depend on the ranks
+        for (std::size_t row = 0; row < granules_.owned; ++row) squares[0].add(math::norm2(granules_.velocity[row]));
+        comm_.sum(squares);
+        double const mean = squares[0].value() / static_cast<double>(case_.granules.parcels);
         bool const stop = comm_.max(stop_requested() ? 1L : 0L) > 0;
         if (stop || (!pouring && round > 5 && mean < 0.01 * g * radius)) break;
     }
@@ -220,15 +225,17 @@ void Simulation::settle()
 void Simulation::settle_between_still_walls()
 {
     auto const& walls = case_.walls;
+    bool const cut_anew = !case_.gas.present && comm_.size() > 1;  // for where the granules have come to lie
     bool const moving = std::any_of(walls.begin(), walls.end(), [](auto const& body) { return !body.motions.empty(); });
     if (!moving) {
         settle();
+        if (cut_anew) engine_->rebalance(granules_);
         engine_->prepare(granules_);
         return;
     }
     dem::Settings still = granule_settings(case_);
     for (auto& body : still.walls) body.motions.clear();
-    auto run = std::exchange(engine_, std::make_unique<dem::Engine>(still, slabs_, comm_));
+    auto run = std::exchange(engine_, std::make_unique<dem::Engine>(still, engine_->partition(), comm_));
     engine_->prepare(granules_);
     settle();
     // Each contact is known to one rank; its granules may have partners on others.
@@ -239,6 +246,7 @@ void Simulation::settle_between_still_walls()
     if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
     engine_ = std::move(run);
     engine_->resume(granules_, all);
+    if (cut_anew) engine_->rebalance(granules_);
     engine_->prepare(granules_);
 }
 }

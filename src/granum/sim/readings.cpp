@@ -1,5 +1,4 @@
 // What the instruments of the plant would show, from the state of all ranks.
-#include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
 #include "granum/sim/simulation.hpp"
 
@@ -42,28 +41,30 @@ Readings Simulation::readings() const
         plate_area,
         count
     };
-    std::array<double, count> sums{};
+    std::array<base::ExactSum, count> exact;  // of granules: the order in memory and the ranks do not show
     double coldest = 1e9, hottest = 0;
     double const c_dry = case_.granules.heat_capacity;
-    for (std::size_t const row : particle::rows_by_identity(granules_)) {
+    for (std::size_t row = 0; row < granules_.owned; ++row) {
         double const z = granules_.position[row].z, d = granules_.real_diameter(row);
         double const volume = granules_.real_count(row) * math::pi / 6 * d * d * d;
         if (granules_.groups.process) {
             double const solid = granules_.core_mass[row] + granules_.layer_mass[row] + granules_.solute[row];
             double const c = solid * c_dry + granules_.water[row] * air::heat_capacity_water;
-            sums[capacity] += c;
-            sums[heat] += c * granules_.temperature[row];
-            sums[water] += granules_.water[row];
-            sums[dry] += solid;
+            exact[capacity].add(c);
+            exact[heat].add(c * granules_.temperature[row]);
+            exact[water].add(granules_.water[row]);
+            exact[dry].add(solid);
             coldest = std::min(coldest, granules_.temperature[row]);
             hottest = std::max(hottest, granules_.temperature[row]);
         }
-        sums[solids_volume] += volume;
-        sums[solids_area] += volume * case_.chamber.area(std::clamp(z, 0.0, case_.chamber.height()));
-        sums[mass] += granules_.mass[row];
-        sums[mass_height] += granules_.mass[row] * z;
-        sums[energy] += 0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]);
+        exact[solids_volume].add(volume);
+        exact[solids_area].add(volume * case_.chamber.area(std::clamp(z, 0.0, case_.chamber.height())));
+        exact[mass].add(granules_.mass[row]);
+        exact[mass_height].add(granules_.mass[row] * z);
+        exact[energy].add(0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]));
     }
+    comm_.sum(exact);
+    std::array<double, count> sums{};
     if (has_gas()) {
         sums[out_mass] = last_.mass_out, sums[out_vapour] = last_.vapour_out, sums[out_enthalpy] = last_.enthalpy_out;
         double const g = -case_.gravity.z, height = case_.chamber.height();
@@ -86,6 +87,7 @@ Readings Simulation::readings() const
         });
     }
     comm_.sum(sums);
+    for (std::size_t k = 0; k < count; ++k) sums[k] += exact[k].value();
     Readings r;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     r.bed_temperature = sums[capacity] > 0 ? sums[heat] / sums[capacity] : unknown;

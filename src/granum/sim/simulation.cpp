@@ -15,26 +15,28 @@ namespace granum::sim
 namespace air = material;
 using grid::Index;
 
+namespace
+{
+// A look at the balance costs about as much as two rebuilds of the neighbour list.
+constexpr int rebuilds_between_balances = 30;
+}
+
 Simulation::~Simulation() = default;
 
 Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint const* saved)
     : case_(std::move(data)), comm_(comm)
 {
-    auto const number = cells(case_);
-    auto const& chamber = case_.chamber;
-    base::require(comm.size() <= number[0], "{} ranks need at least as many cells along x; there are {}", comm.size(),
-                  number[0]);
-    slabs_ = par::Slabs::balanced(chamber.lower().x, (chamber.upper().x - chamber.lower().x) / number[0],
-                                  case_.periodic[0], grid::column_weights(chamber, number), comm.size());
+    auto settings = granule_settings(case_);
     if (case_.contact.hard()) {
         base::require(comm.size() == 1, "hard spheres run on one rank; there are {}", comm.size());
-        auto hard = std::make_unique<HardMover>(granule_settings(case_), hard_options(case_));
+        auto hard = std::make_unique<HardMover>(settings, hard_options(case_));
         hard_ = hard.get();
         mover_ = std::move(hard);
-    } else {
-        engine_ = std::make_unique<dem::Engine>(granule_settings(case_), slabs_, comm_);
-        mover_ = std::make_unique<SoftMover>(engine_);
     }
+    if (case_.gas.present)
+        cut_for_gas();
+    else
+        settings.balance_every = rebuilds_between_balances;
     granule_dt_ = granule_step(case_);
 
     auto const state = saved ? read(*saved) : nullptr;
@@ -42,6 +44,10 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         take_granules(*state);
     else
         place_granules();
+    if (!hard_) {
+        engine_ = std::make_unique<dem::Engine>(std::move(settings), partition(), comm_);
+        mover_ = std::make_unique<SoftMover>(engine_);
+    }
     if (case_.spray.present) {
         deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.first_free));
         engine_->attach(*deposits_);
@@ -52,11 +58,11 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         mover_->prepare(granules_);
         if (case_.granules.start == "settled" || case_.granules.start == "poured") settle_between_still_walls();
         auto& watch = mover_->watch();  // from here on it watches the run
-        watch.largest_overlap = watch.dissipated = 0;
-        watch.warned_overlaps = 0;
+        watch.largest_overlap = 0, watch.warned_overlaps = 0;
+        watch.dissipated = watch.wall_work = {};
     }
     if (case_.gas.present) {
-        grid_ = grid::build(chamber, number, case_.periodic, slabs_, comm_.rank());
+        grid_ = grid::build(case_.chamber, case_.gas.cells, case_.periodic, slabs_, comm_.rank());
         make_gas();
         if (!saved) start_gas();
     }
@@ -94,6 +100,24 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     ledgers_.water.reference = 0.01 * (case_.spray.rate + balance_.dry_mass_flow * balance_.outlet_humidity);
     ledgers_.energy.reference = std::max(1e-3 * std::abs(stock[2]), 1e-9);
     audit();
+}
+
+void Simulation::cut_for_gas()
+{
+    auto const& chamber = case_.chamber;
+    auto const& cells = case_.gas.cells;
+    base::require(comm_.size() <= cells[0], "{} ranks need at least as many cells along x; there are {}", comm_.size(),
+                  cells[0]);
+    slabs_ = par::Slabs::balanced(chamber.lower().x, (chamber.upper().x - chamber.lower().x) / cells[0],
+                                  case_.periodic[0], grid::column_weights(chamber, cells), comm_.size());
+}
+
+par::Partition Simulation::partition() const
+{
+    par::Space const space{{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic};
+    if (case_.gas.present) return {space, slabs_};
+    std::vector<double> const work(granules_.owned, 1.0);
+    return par::Partition::balanced(space, std::span(granules_.position.values).first(granules_.owned), work, comm_);
 }
 
 double Simulation::local_drying_potential(double temperature, double vapour_fraction) const

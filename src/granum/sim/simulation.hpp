@@ -106,6 +106,8 @@ class Simulation
     template <class Visit>
     void each_share(Visit&& visit);  //!< scalars of which every rank has its share
 
+    void cut_for_gas();                //!< slabs of cells
+    par::Partition partition() const;  //!< of space among ranks, as the gas or the granules want it. Collective.
     void place_granules();
     void make_gas();
     void start_gas();
@@ -128,7 +130,7 @@ class Simulation
 
     Case case_;
     par::Communicator const& comm_;
-    par::Slabs slabs_;
+    par::Slabs slabs_;  //!< of cells, where there is gas
     grid::Grid grid_;
     particle::Store granules_;
     std::unique_ptr<dem::Engine> engine_;  //!< none where granules are hard

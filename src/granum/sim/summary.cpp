@@ -36,19 +36,23 @@ json ledger(Ledger const& l)
             {"unit", l.unit}};
 }
 
-json packing_part(BedStatistics const& bed)
+json packing_part(BedStatistics const& bed, Case const& data, std::vector<BoxContent> const& boxes)
 {
-    return {{"coordination_number", bed.coordination},
-            {"share_with_neighbours", bed.neighbours},
-            {"contacts", bed.contacts},
-            {"wall_contacts", bed.wall_contacts},
-            {"overlap",
-             {{"mean", bed.overlap_mean},
-              {"p99", bed.overlap_p99},
-              {"largest", bed.overlap_largest},
-              {"criterion", overlap_criterion},
-              {"share_beyond", bed.overlap_beyond}}},
-            {"wall_force_N", {bed.wall_force.x, bed.wall_force.y, bed.wall_force.z}}};
+    json out{{"coordination_number", bed.coordination},
+             {"share_with_neighbours", bed.neighbours},
+             {"contacts", bed.contacts},
+             {"wall_contacts", bed.wall_contacts},
+             {"overlap",
+              {{"mean", bed.overlap_mean},
+               {"p99", bed.overlap_p99},
+               {"largest", bed.overlap_largest},
+               {"criterion", data.output.overlap_criterion},
+               {"share_beyond", bed.overlap_beyond}}},
+             {"wall_force_N", {bed.wall_force.x, bed.wall_force.y, bed.wall_force.z}}};
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+        out["boxes"][data.output.boxes[k].name] = {{"solids_fraction", boxes[k].solids_fraction},
+                                                   {"granules", boxes[k].granules}};
+    return out;
 }
 
 json product_part(Simulation const& simulation, Output const& output)
@@ -106,7 +110,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                        {"represented", represented},
                        {"mass_kg", data.granules.mass},
                        {"parcel_ratio", data.granules.parcel_ratio}};
-    out["packing"] = packing_part(last.bed);
+    out["packing"] = packing_part(last.bed, data, output.boxes());
     if (auto const* hard = simulation.mover().hard_watch())
         out["collisions"] = {{"pairs", hard->collisions},
                              {"walls", hard->wall_collisions},
@@ -114,14 +118,10 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                              {"time_driven_s", hard->time_driven},
                              {"time_driven_steps", hard->time_driven_steps},
                              {"held_back", hard->held_back}};
-    bool const still =
-        std::all_of(data.walls.begin(), data.walls.end(), [](auto const& w) { return w.motions.empty(); });
-    out["mechanics"] = {{"kinetic_J", last.bed.translation},
-                        {"rotation_J", last.bed.rotation},
-                        {"potential_J", last.bed.potential},
-                        {"elastic_J", last.bed.elastic},
-                        {"dissipated_J", last.bed.dissipated}};
-    if (!simulation.has_gas() && still) {
+    out["mechanics"] = {{"kinetic_J", last.bed.translation},   {"rotation_J", last.bed.rotation},
+                        {"potential_J", last.bed.potential},   {"elastic_J", last.bed.elastic},
+                        {"dissipated_J", last.bed.dissipated}, {"wall_work_J", last.bed.wall_work}};
+    if (!simulation.has_gas()) {
         out["mechanics"]["residual_J"] = output.energy_residual();
         out["mechanics"]["relative_error"] =
             output.energy_passed() > 0 ? output.energy_residual() / output.energy_passed() : 0;

@@ -117,7 +117,8 @@ void Simulation::let_out()
 {
     Vec3 const lower = case_.chamber.lower(), upper = case_.chamber.upper();
     std::vector<std::uint32_t> stay, leave;
-    std::array<double, 3> gone{};  // parcels, mass, energy
+    long parcels = 0;
+    std::array<base::ExactSum, 3> gone;  // mass, energy, and that of their contacts
     std::string failure;
     for (std::uint32_t row = 0; row < granules_.owned; ++row) {
         auto const& x = granules_.position[row];
@@ -140,22 +141,23 @@ void Simulation::let_out()
                 open ? "; apparatus.leaving = \"discharge\" counts such granules" : "");
         leave.push_back(row);
     }
-    std::sort(leave.begin(), leave.end(), [&](auto a, auto b) { return granules_.id[a] < granules_.id[b]; });
     for (auto const row : leave) {
         double const mass = granules_.mass[row];
-        gone[0] += 1;
-        gone[1] += mass;
-        gone[2] += energy_of(granules_.position[row], granules_.velocity[row], granules_.spin[row], mass,
-                             granules_.radius[row], case_.gravity);
+        ++parcels;
+        gone[0].add(mass);
+        gone[1].add(energy_of(granules_.position[row], granules_.velocity[row], granules_.spin[row], mass,
+                              granules_.radius[row], case_.gravity));
     }
-    bool const failed = comm_.max(failure.empty() ? 0L : 1L) > 0;
-    if (failed)
-        throw base::NumericsError(failure.empty() ? "stopped: a granule left the domain of another rank" : failure);
-    comm_.sum(gone);
-    if (gone[0] == 0) return;
-    traffic_.left += std::lround(gone[0]);
-    traffic_.left_mass += gone[1], traffic_.left_energy += gone[2];
+    if (auto const said = comm_.first_said(failure); !said.empty()) throw base::NumericsError(said);
+    parcels = comm_.sum(parcels);
+    if (parcels == 0) return;
+    auto& watch = mover_->watch();
+    gone[2] = watch.elastic;
     particle::reorder(granules_, stay);
     mover_->prepare(granules_);
+    gone[2].subtract(watch.elastic);
+    comm_.sum(gone);
+    traffic_.left += parcels;
+    traffic_.left_mass += gone[0].value(), traffic_.left_energy += gone[1].value() + gone[2].value();
 }
 }

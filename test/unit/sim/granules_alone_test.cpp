@@ -142,7 +142,7 @@ TEST(GranulesAlone, poured_lie_still_on_the_floor_and_push_with_their_weight)
         "size = { distribution = \"list\", by = \"number\", diameters = [\"2 mm\", \"4 mm\"], shares = [3, 1] }\n");
     EXPECT_EQ(simulation->granules().owned, 500u);
     for (int k = 0; k < 20; ++k) simulation->step(1e-3);
-    auto const bed = bed_statistics(simulation->granules(), simulation->mover(), simulation->comm());
+    auto const bed = bed_statistics(simulation->granules(), simulation->mover(), simulation->comm(), 0.003);
     double weight = 0;
     auto const& granules = simulation->granules();
     for (std::size_t row = 0; row < granules.owned; ++row) weight += granules.mass[row] * math::standard_gravity;

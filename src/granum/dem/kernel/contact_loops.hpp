@@ -246,11 +246,13 @@ struct Energies
 {
     Lanes coarse = 0.0, fine = 0.0;
 
-    HWY_INLINE void add(Lanes energy, Lanes coarse_by, Lanes fine_by)
+    // `half` of the energy, so that each of two ranks that know a contact can count it; twice the share of this one.
+    HWY_INLINE void add(Mask where, Lanes half, Lanes twice_share, Lanes coarse_by, Lanes fine_by)
     {
-        Lanes const rough = (energy + coarse_by) - coarse_by;
-        coarse += rough;
-        fine += ((energy - rough) + fine_by) - fine_by;
+        half = select(where, half, Lanes(0.0));
+        Lanes const rough = (half + coarse_by) - coarse_by;
+        coarse += twice_share * rough;
+        fine += twice_share * (((half - rough) + fine_by) - fine_by);
     }
     void tell(Energy& to) const { to.coarse += sum(coarse), to.fine += sum(fine); }
 };
@@ -273,13 +275,14 @@ struct Tally
     // A contact that ended leaves what its springs had stored.
     HWY_INLINE void ended(Mask over, Lanes share, double const* stored)
     {
-        dissipated.add(select(over, share * load(stored), Lanes(0.0)), coarse_by, fine_by);
+        dissipated.add(over, Lanes(0.5) * load(stored), share + share, coarse_by, fine_by);
     }
     HWY_INLINE void energies(Staged& contact, std::size_t seat, Lanes share)
     {
         Mask const touch = seat == 0 ? contact.touch.a : contact.touch.b;
-        dissipated.add(select(touch, share * contact.dissipated.part(seat), Lanes(0.0)), coarse_by, fine_by);
-        elastic.add(select(touch, share * contact.elastic.part(seat), Lanes(0.0)), coarse_by, fine_by);
+        Lanes const half = 0.5, twice = share + share;
+        dissipated.add(touch, half * contact.dissipated.part(seat), twice, coarse_by, fine_by);
+        elastic.add(touch, half * contact.elastic.part(seat), twice, coarse_by, fine_by);
     }
     void tell(Seen& seen) const
     {

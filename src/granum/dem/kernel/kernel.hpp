@@ -67,10 +67,19 @@ struct Rules
     std::size_t columns = 6;  //!< of history
 };
 
-//! An energy in two parts, J, each in multiples of its quantum (Rules::coarse_energy), so that it is summed exactly.
+//! Energies of contacts, J, summed in two parts, each in multiples of its quantum (Rules::coarse_energy): neither the
+//! order nor who counts which half of a contact is seen in the bits of either. Exact for the contacts of one step.
 struct Energy
 {
     double coarse = 0, fine = 0;
+
+    //! `share` is one half for each side of a contact that two ranks know, else one.
+    void add(Rules const& rules, double energy, double share)
+    {
+        double const half = 0.5 * energy, rough = (half + rules.coarse_energy) - rules.coarse_energy;
+        coarse += 2 * share * rough;
+        fine += 2 * share * (((half - rough) + rules.fine_energy) - rules.fine_energy);
+    }
     double value() const { return coarse + fine; }
 };
 

@@ -75,7 +75,7 @@ Answer laws(Rules const& rules, Pair<double> const& pair, Approach<double> const
 
 void end_contact(Rules const& rules, double* history, double share, Seen& seen)
 {
-    if (rules.ledger) seen.dissipated.coarse += share * history[(rules.columns - 1) * block];
+    if (rules.ledger) seen.dissipated.add(rules, history[(rules.columns - 1) * block], share);
     for (std::size_t c = 0; c < rules.columns; ++c) history[c * block] = 0;
 }
 
@@ -123,8 +123,8 @@ void pair_pass(PairPass const& in, Seen& seen)
             Vector const turn = cross(n, out.tangential);
             give(low, out.force, out.rolling - lever_low * turn);
             give(high, -out.force, -out.rolling - lever_high * turn);
-            seen.dissipated.coarse += share * out.dissipated;
-            seen.elastic.coarse += share * out.elastic;
+            seen.dissipated.add(rules, out.dissipated, share);
+            seen.elastic.add(rules, out.elastic, share);
         }
 }
 
@@ -170,8 +170,8 @@ void wall_pass(WallPass const& in, Seen& seen)
         give(body, out.force, torque);
         in.force[0][place] = out.force.x, in.force[1][place] = out.force.y, in.force[2][place] = out.force.z;
         in.torque[0][place] = torque.x, in.torque[1][place] = torque.y, in.torque[2][place] = torque.z;
-        seen.dissipated.coarse += out.dissipated;
-        seen.elastic.coarse += out.elastic;
+        seen.dissipated.add(rules, out.dissipated, 1);
+        seen.elastic.add(rules, out.elastic, 1);
     }
 }
 

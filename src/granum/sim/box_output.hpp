@@ -1,0 +1,46 @@
+// How densely granules lie in boxes that the case names: boxes.csv.
+#pragma once
+
+#include "granum/io/csv.hpp"
+#include "granum/io/sections.hpp"
+#include "granum/sim/simulation.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace granum::sim
+{
+struct BoxContent
+{
+    double solids_fraction = 0;  //!< volume of granules in the box over its own; where two overlap both count
+    double granules = 0;         //!< parcels whose centre lies in the box
+};
+
+//! What the boxes of the case hold, the same on every rank and on any number of them. A granule that crosses a face
+//! counts with the part that is inside. Collective.
+std::vector<BoxContent> box_contents(Simulation& simulation);
+
+//! Writes on rank 0; every call is collective.
+class BoxOutput
+{
+  public:
+    BoxOutput(std::string const& folder, Simulation& simulation);
+
+    void sample();  //!< a row of boxes.csv
+    std::vector<BoxContent> const& last() const { return last_; }
+
+    //! What the file held, and how it goes on from there; on rank 0. A run that goes on with other boxes begins it
+    //! anew.
+    void save(io::Sections& out) const;
+    void go_on(io::Sections const& saved);
+
+  private:
+    std::string head() const;  //!< all that the columns depend on
+
+    Simulation& simulation_;
+    std::unique_ptr<io::SeriesWriter> file_;
+    std::vector<double> rows_;  //!< one after the other
+    std::vector<BoxContent> last_;
+};
+}

@@ -1,0 +1,55 @@
+// Reads [time] and [output]: how long a run is, its steps, and what it writes down.
+#include "granum/sim/case_sections.hpp"
+
+#include <set>
+
+namespace granum::sim
+{
+using io::Dimension;
+
+void read_time(io::CaseFile& file, Case& data, Purpose purpose)
+{
+    TimeCase& time = data.time;
+    bool const whole = purpose == Purpose::run;
+    time.duration = file.quantity("time.duration", Dimension::time, whole ? std::nullopt : std::optional(time.duration),
+                                  "to be simulated", io::positive);
+    time.granule_step =
+        file.optional_quantity("time.granule_step", Dimension::time, "otherwise from the bounds", io::positive);
+    time.gas_step = file.optional_quantity("time.gas_step", Dimension::time, "otherwise from the bounds", io::positive);
+    time.output_interval = file.quantity("output.interval", Dimension::time, time.output_interval,
+                                         "of pictures and ParaView files", io::positive);
+    time.series_interval = file.quantity("output.series_interval", Dimension::time, time.series_interval,
+                                         "of timeseries.csv", io::positive);
+    time.checkpoint_interval =
+        file.quantity("output.checkpoint_interval", Dimension::time, time.checkpoint_interval,
+                      "wall time between checkpoints; the first comes after 2 min at the latest", io::positive);
+    time.checkpoint_every =
+        file.optional_quantity("output.checkpoint_every", Dimension::time,
+                               "time of process between checkpoints, beside the wall time", io::positive);
+}
+
+void read_output(io::CaseFile& file, Case& data)
+{
+    auto& output = data.output;
+    output.overlap_criterion =
+        file.quantity("output.overlap_criterion", Dimension::one, output.overlap_criterion,
+                      "overlaps above this share of a radius are counted", {.low = 0, .high = 1, .low_allowed = false});
+    std::set<std::string> names;
+    int const count = file.count("output.box");
+    for (int i = 0; i < count; ++i) {
+        auto const key = fmt::format("output.box[{}].", i);
+        BoxCase box;
+        box.name = file.words(key + "name", fmt::format("box-{}", i), "in boxes.csv");
+        check_column_name(file, key + "name", box.name);
+        if (!names.insert(box.name).second) file.mistake(key + "name", "is that of another box too");
+        box.region = read_box(file, key, data.chamber, "corner of the box to look into");
+        output.boxes.push_back(std::move(box));
+    }
+}
+
+void check_column_name(io::CaseFile& file, std::string const& key, std::string const& name)
+{
+    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
+        file.mistake(key, "cannot head a column of a CSV file", {"leave out commas, quotes and line ends"});
+}
+}
