@@ -40,7 +40,7 @@ shape = "disc"
 centre = ["8 mm", "8 mm", "21 mm"]
 normal = [0, 0, -1]
 diameter = "50 mm"
-servo = { direction = [0, 0, -1], pressure = "400 Pa", fastest = "0.2 m/s" }
+servo = { direction = [0, 0, -1], pressure = "400 Pa", area = "2.56e-4 m2", fastest = "0.2 m/s" }
 [granules]
 size = { distribution = "table", file = "sizes.csv" }
 density = "2500 kg/m3"
@@ -152,7 +152,7 @@ rotate = { point = ["50 mm", "0 mm", "50 mm"], axis = [0, 1, 0], rate = "60 rpm"
 [granules]
 diameter = "5 mm"
 density = "2500 kg/m3"
-number = 400
+number = 250
 region = { lower = ["18 mm", "0 mm", "18 mm"], upper = ["82 mm", "24 mm", "80 mm"] }
 [contact]
 youngs_modulus = "2 MPa"
@@ -310,7 +310,7 @@ TEST_F(GranulesAlone, on_a_full_disk_stop_with_the_name_of_the_file_and_go_on_wh
     auto const path = folder / "case.toml";
     ASSERT_EQ(run({path, "-n", "1", "-o", folder / "whole", "--until", "10 ms"}), 0) << errors;
     for (auto const* ranks : {"1", "2"})
-        for (auto const* file : {"boxes.csv", "timeseries.csv"}) {
+        for (auto const* file : {"boxes.csv", "walls.csv"}) {
             auto const results = folder / "run", full = results + "/" + file;
             fs::remove_all(results);
             ASSERT_EQ(run({path, "-n", ranks, "-o", results, "--until", "4 ms"}), 0) << errors;

@@ -94,7 +94,7 @@ shape = "disc"
 centre = ["8 mm", "8 mm", "30 mm"]
 normal = [0, 0, -1]
 diameter = "40 mm"
-servo = { direction = [0, 0, -1], pressure = "400 Pa", fastest = "0.2 m/s" }
+servo = { direction = [0, 0, -1], pressure = "400 Pa", area = "2.56e-4 m2", fastest = "0.2 m/s" }
 [granules]
 diameter = "2 mm"
 density = "2500 kg/m3"

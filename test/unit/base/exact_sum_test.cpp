@@ -41,3 +41,25 @@ TEST(ExactSum, does_not_depend_on_order_or_on_who_adds)
     auto const one = sum_of({numbers.begin(), half}), other = sum_of({half, numbers.end()});
     for (std::size_t k = 0; k < ExactSum::size; ++k) EXPECT_EQ(one.limbs[k] + other.limbs[k], whole.limbs[k]);
 }
+
+TEST(ExactSum, has_the_same_bits_whoever_adds_which_part)
+{
+    // Multiples of a power of two, so that plain sums of a few of them are exact and can stand in for their parts.
+    std::mt19937_64 random(6);
+    for (int round = 0; round < 500; ++round) {
+        ExactSum each, grouped, other;
+        double group = 0;
+        for (int n = 0; n < 40; ++n) {
+            double const x = std::ldexp(static_cast<double>(random() >> 24) - 0.45 * 0x1p40, -60);
+            double const whole = std::ldexp(std::floor(std::ldexp(x, 60)), -60);
+            each.add(whole);
+            group += whole;
+            if (n % 7 == 6) (n % 2 == 0 ? grouped : other).add(group), group = 0;
+        }
+        grouped.add(group);
+        grouped.add(other);
+        EXPECT_EQ(each.value(), grouped.value());
+        grouped.subtract(each);
+        EXPECT_EQ(grouped.value(), 0);
+    }
+}
