@@ -196,7 +196,7 @@ TEST(Ranks, have_the_bits_of_one_rank_across_periodic_faces_and_in_sweeps)
         crossed += std::abs(one[k].position.x - (column + 0.5) * 0.0048) > 0.5 * columns * 0.0048;
     }
     EXPECT_GT(crossed, 20);
-    EXPECT_EQ(alone.engine->watch().dissipated, slow.engine->watch().dissipated);
+    EXPECT_EQ(alone.engine->watch().dissipated.value(), slow.engine->watch().dissipated.value());
 }
 
 // Something that belongs to granules: a number per id.

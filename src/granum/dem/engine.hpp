@@ -42,10 +42,9 @@ struct Settings
     double warn_overlap = 0.10, stop_overlap = 0.50;  //!< of a radius
     bool frozen = false;                              //!< granules stay where they are
     bool energy_ledger = true;                        //!< account for what contacts store and dissipate
-    std::string kernel;  //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
-    double largest_radius =
-        0;                  //!< of a granule that will ever come, m: the unit of energies; 0: of those that are there
-    int balance_every = 0;  //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
+    std::string kernel;         //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
+    double largest_radius = 0;  //!< of those that will ever come, m: the unit of energies; 0: of those there at first
+    int balance_every = 0;      //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
 };
 
 //! What the steps saw since it was last reset (by whoever reads it).
