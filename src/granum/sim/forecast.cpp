@@ -78,7 +78,7 @@ double kernel_rate()
 // The estimate of wall time counts work in evaluations of the kernel above. Those of a granule and step, its bytes and
 // those of a rank are measured on granules alone, doc/howto/size-a-run.md says how; on other processors the ratio of
 // the two kernels is another. What a cell and gas step (momentum, pressure iterations, exchange) takes is assumed.
-constexpr double evaluations_per_granule_step = 6;
+constexpr double evaluations_per_granule_step = 4.5;
 constexpr double evaluations_per_cell_step = 30;
 constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
 constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
