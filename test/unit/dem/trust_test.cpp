@@ -142,6 +142,26 @@ TEST(ContactHistory, survives_that_the_granules_are_taken_over_anew)
     EXPECT_GT(strained, 10);
 }
 
+TEST(Materials, are_told_apart_by_what_they_are_not_by_their_number)
+{
+    std::vector<std::uint64_t> order(512);
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    auto first = heap(order), third = heap(order);
+    auto& laws = third.settings.laws;
+    auto const properties = laws.pair(0, 0);
+    laws.add(laws.materials[0]);
+    for (std::uint32_t other : {1u, 2u}) laws.pair(other, 2, properties);
+    laws.pair(0, 0, {.restitution = 0.1});
+    for (auto& material : third.granules.material.values) material = 2;
+    for (auto* scene : {&first, &third}) {
+        scene->prepare();
+        scene->run(5000, 1e-5);
+    }
+    EXPECT_GT(first.engine->watch().contacts, 50);
+    for (std::size_t row = 0; row < order.size(); ++row)
+        EXPECT_EQ(norm(first.granules.position[row] - third.granules.position[row]), 0) << row;
+}
+
 TEST(InputOrder, of_granules_changes_not_a_bit)
 {
     std::vector<std::uint64_t> sorted(512), shuffled;

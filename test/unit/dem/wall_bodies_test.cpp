@@ -73,6 +73,30 @@ TEST(SphereOverATriangleMesh, slides_over_a_hundred_coplanar_triangles_as_on_a_p
     }
 }
 
+TEST(SphereOverATriangleMesh, glides_across_periodic_faces_where_the_mesh_ends_and_begins)
+{
+    double const dt = 2e-6, speed = 1.0, length = 20 * radius;
+    auto scene = on({{.name = "mesh", .shapes = {jittered_sheet({0, 0, 0}, {length, 0, 0}, {0, 8 * radius, 0}, 5, 2)}}},
+                    {0.6, 0.0, 0});
+    scene.settings.lower = {0, -1, -1};
+    scene.settings.upper = {length, 1, 1};
+    scene.settings.periodic = {true, false, false};
+    scene.settings.skin = radius;
+    scene.slabs = {.origin = 0, .width = length, .periodic = true};
+    scene.add({4 * radius, 4.1 * radius, 0.999 * radius}, {}, radius, 2000);
+    settle_and_push(scene, {speed, 0.01, 0}, dt);
+    double kick = 0;
+    int crossings = 0;
+    for (int k = 0; k < 300; ++k) {
+        double const before = scene.granules.position[0].x;
+        scene.run(100, dt);
+        crossings += scene.granules.position[0].x < before;
+        kick = std::max(kick, std::abs(scene.granules.velocity[0].z));
+    }
+    EXPECT_EQ(crossings, 3);
+    EXPECT_LT(kick, 1e-6 * speed);
+}
+
 TEST(SphereOverATriangleMesh, lost_by_friction_what_the_law_says)
 {
     double const dt = 2e-6, friction = 0.1;
