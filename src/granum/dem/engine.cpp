@@ -1,6 +1,5 @@
 #include "granum/base/error.hpp"
 #include "granum/dem/engine_inside.hpp"
-#include "granum/dem/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

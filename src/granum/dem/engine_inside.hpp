@@ -53,7 +53,12 @@ struct Engine::Inside
                                            std::span<ContactRecord const> saved) const;
 
     // motion.cpp
-    struct Motion;
+    struct Motion
+    {
+        particle::Store& granules;
+        double half;  // of a step, s
+        bool gas;     // acts on granules in this interval
+    };
     double move(Motion const& motion, std::size_t layer, int kicks, bool drifts);
     double move_all(Motion const& motion, int kicks, bool drifts);
     int steps_together(int left) const;

@@ -1,7 +1,10 @@
 #include "granum/dem/frame.hpp"
 
+#include "granum/base/error.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace granum::dem
 {
@@ -55,6 +58,9 @@ void Frame::wrap(Domain const& domain, std::size_t row)
 
 void Frame::resize(std::size_t rows)
 {
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / kernel::stride - 2;
+    base::require(rows <= most, "{} granules on one rank are more than the {} that it can name: take more ranks", rows,
+                  most);
     bodies.resize(rows + 2);
     material.resize(rows + 2);
     id.resize(rows);

@@ -7,7 +7,7 @@ namespace granum::dem
 {
 namespace
 {
-// Fewer rows in a layer cost more in passes begun than they save.
+// No fewer rows to a layer, so that what begins a pass is little beside it.
 constexpr double fewest_rows = 300;
 }
 

@@ -1,5 +1,5 @@
 // Moving granules on: layer by layer, one step at a time or several in one sweep.
-#include "granum/dem/motion.hpp"
+#include "granum/dem/engine_inside.hpp"
 
 #include <unistd.h>
 
