@@ -103,7 +103,7 @@ struct Staged
     Both dissipated, elastic;
     alignas(64) double nothing[16 * block] = {};  // history of an empty seat
 
-    // A seat where nobody sits copies the other.
+    // A seat where nobody sits copies the other; nobody reads its answers.
     HWY_INLINE void leave_second_empty()
     {
         auto const copy = [](Both& both) { both.b = both.a; };
@@ -111,7 +111,7 @@ struct Staged
         for (auto* number : {&at.overlap, &at.radius, &at.mass, &at.inverse_mass, &at.inertia, &at.speed})
             copy(*number);
         for (auto* vector : {&n, &velocity, &spin}) copy(vector->x), copy(vector->y), copy(vector->z);
-        touch.b = touch.a & !touch.a;
+        touch.b = touch.a;
         history[1] = nothing;
     }
 };
