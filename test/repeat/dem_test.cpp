@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -93,7 +94,8 @@ scene::Scene shear(int columns = 10, int rows = 7, int levels = 6)
             for (int i = 0; i < columns; ++i, ++id) {
                 base::Random random(1, base::Purpose::test, static_cast<std::uint64_t>(id), 0);
                 Vec3 const centre{(i + 0.5) * 0.0048, (j + 0.5) * 0.036 / 7, (k + 0.5) * 0.005};
-                Vec3 const at = centre + 3e-4 * Vec3{random.normal(), random.normal(), random.normal()};
+                auto const off = [&] { return 3e-4 * std::clamp(random.normal(), -1.5, 1.5); };  // never deep overlaps
+                Vec3 const at = centre + Vec3{off(), off(), off()};
                 scene.add(at, {0.8 * std::sin(130 * at.y) + 1.2, 0.5 * random.normal(), 0.5 * std::sin(200 * at.x)},
                           radius, density, {20, 40 * random.normal(), 0});
             }
@@ -171,33 +173,80 @@ TEST(Ranks, agree_with_one_rank_because_history_migrates)
                 1e-6);
 }
 
+// The same on one rank, on several, and on one rank step by step.
+struct Alike
+{
+    scene::Scene alone, apart, slow;
+
+    Alike(std::function<scene::Scene()> const& make, int cells, int steps, double dt)
+        : alone(make()), apart(make()), slow(make())
+    {
+        share_out(apart, cells);
+        double const lower = alone.settings.lower.x, upper = alone.settings.upper.x;
+        alone.slabs = slow.slabs = {
+            .origin = lower, .width = upper - lower, .periodic = alone.settings.periodic[0]};
+        for (auto* scene : {&apart, &alone, &slow}) scene->prepare();
+        apart.run(steps, dt);
+        alone.run(steps, dt);
+        for (int step = 0; step < steps; ++step) slow.run(1, dt);
+    }
+
+    // Compares them bit by bit, and answers with the states.
+    std::vector<State> compare() const
+    {
+        EXPECT_EQ(slow.engine->watch().sweeps, 0);
+        EXPECT_EQ(alone.engine->watch().late_lists + apart.engine->watch().late_lists, 0);
+        auto const one = collect(alone), many = collect(apart), stepped = collect(slow);
+        EXPECT_EQ(many.size(), one.size());
+        EXPECT_EQ(stepped.size(), one.size());
+        long others = 0, behind = 0;
+        for (std::size_t k = 0; k < std::min({one.size(), many.size(), stepped.size()}); ++k) {
+            others += std::memcmp(&one[k], &many[k], sizeof(State)) != 0;
+            behind += std::memcmp(&one[k], &stepped[k], sizeof(State)) != 0;
+        }
+        EXPECT_EQ(others, 0) << "granules that other ranks have otherwise";
+        EXPECT_EQ(behind, 0) << "granules that sweeps have otherwise";
+        EXPECT_EQ(alone.engine->watch().dissipated.value(), slow.engine->watch().dissipated.value());
+        return one;
+    }
+};
+
 TEST(Ranks, have_the_bits_of_one_rank_across_periodic_faces_and_in_sweeps)
 {
     // Wide enough that layers are as thin as they may be.
     constexpr int columns = 24;
-    auto apart = shear(columns, 17, 17), alone = shear(columns, 17, 17), slow = shear(columns, 17, 17);
-    share_out(apart, columns);
-    alone.slabs = slow.slabs = {.origin = 0, .width = columns * 0.0048, .periodic = true};
-    for (auto* scene : {&apart, &alone, &slow}) scene->prepare();
-    apart.run(200, 1e-5);
-    alone.run(200, 1e-5);
-    for (int step = 0; step < 200; ++step) slow.run(1, 1e-5);
-    EXPECT_GT(alone.engine->watch().sweeps, 20);
-    EXPECT_GT(apart.engine->watch().sweeps, 20);
-    EXPECT_EQ(slow.engine->watch().sweeps, 0);
-    EXPECT_EQ(alone.engine->watch().late_lists + apart.engine->watch().late_lists, 0);
-    EXPECT_GT(apart.engine->watch().rebuilds, 3);
-    auto const one = collect(alone), many = collect(apart), stepped = collect(slow);
-    ASSERT_EQ(many.size(), one.size());
+    Alike const scenes([] { return shear(columns, 17, 17); }, columns, 200, 1e-5);
+    EXPECT_GT(scenes.alone.engine->watch().sweeps, 20);
+    EXPECT_GT(scenes.apart.engine->watch().sweeps, 20);
+    EXPECT_GT(scenes.apart.engine->watch().rebuilds, 3);
     long crossed = 0;
-    for (std::size_t k = 0; k < one.size(); ++k) {
-        EXPECT_EQ(std::memcmp(&one[k], &many[k], sizeof(State)), 0) << "granule " << k;
-        EXPECT_EQ(std::memcmp(&one[k], &stepped[k], sizeof(State)), 0) << "granule " << k;
-        auto const column = static_cast<double>(k % columns);
-        crossed += std::abs(one[k].position.x - (column + 0.5) * 0.0048) > 0.5 * columns * 0.0048;
+    for (auto const& state : scenes.compare()) {
+        auto const column = static_cast<double>(state.id % columns);
+        crossed += std::abs(state.position.x - (column + 0.5) * 0.0048) > 0.5 * columns * 0.0048;
     }
     EXPECT_GT(crossed, 20);
-    EXPECT_EQ(alone.engine->watch().dissipated.value(), slow.engine->watch().dissipated.value());
+}
+
+TEST(Ranks, have_the_bits_of_one_rank_in_strips_across_wide_layers)
+{
+    auto const wide = [](bool periodic) {
+        // Across a periodic domain strips are counted from the middle both ways, so it must be twice as wide.
+        if (periodic) return shear(90, 84, 7);
+        auto scene = shear(46, 44, 25);
+        scene.settings.periodic = {};
+        Vec3 const margin{0.002, 0.002, 0.002};
+        scene.enclose(scene.settings.lower - margin, scene.settings.upper + margin);
+        return scene;
+    };
+    for (bool const periodic : {false, true}) {
+        SCOPED_TRACE(periodic ? "periodic" : "between walls");
+        Alike const scenes([&] { return wide(periodic); }, periodic ? 90 : 46, 60, 1e-5);
+        EXPECT_GT(scenes.alone.engine->watch().strips, 1);
+        EXPECT_GT(scenes.apart.comm.max(scenes.apart.engine->watch().strips), 1);
+        EXPECT_GT(scenes.alone.engine->watch().sweeps, 3);
+        EXPECT_GT(scenes.apart.engine->watch().sweeps, 3);
+        scenes.compare();
+    }
 }
 
 // Something that belongs to granules: a number per id.

@@ -123,17 +123,19 @@ Vec3 Engine::Inside::apart(std::uint32_t row, std::uint32_t other) const
     return out;
 }
 
-void Engine::Inside::forces(std::size_t layer, double dt, kernel::Seen& seen)
+// Of the pairs and walls that can be done when a part of a layer has been moved.
+void Engine::Inside::forces(Layers::Part const& part, bool alone, double dt, kernel::Seen& seen)
 {
-    pairs.run(layer, *kernel, rules, frame, images, dt, seen);
-    walls.run(layer, *kernel, rules, frame, dt, seen);
+    pairs.run(layers.bins(part, alone), *kernel, rules, frame, images, dt, seen);
+    pairs.run(layers.bins_left(part), *kernel, rules, frame, images, dt, seen);
+    walls.run(layers.units(part), *kernel, rules, frame, dt, seen);
 }
 
 void Engine::Inside::all_forces(double dt)
 {
     auto const timing = stopwatch.time(Stage::contacts);
     kernel::Seen seen;
-    for (std::size_t layer = 0; layer < layers.count(); ++layer) forces(layer, dt, seen);
+    for (std::size_t layer = 0; layer < layers.count(); ++layer) forces(layers.whole(layer), false, dt, seen);
     finish_forces(dt, seen);
 }
 

@@ -55,6 +55,7 @@ struct Watch
     long rebuilds = 0;
     long rebalances = 0;
     long sweeps = 0;      //!< of several steps each
+    long strips = 0;      //!< that the layers of the present list are swept in
     long late_lists = 0;  //!< sweeps in which granules went farther than the list reaches
     long contacts = 0;    //!< pairs and walls touching at the last step, this rank
     //! @{ Energies on this rank, J; of a pair split over two ranks each counts one half. The sums over all ranks have

@@ -59,7 +59,7 @@ struct Engine::Inside
         double half;  // of a step, s
         bool gas;     // acts on granules in this interval
     };
-    double move(Motion const& motion, std::size_t layer, int kicks, bool drifts);
+    double move(Motion const& motion, Layers::Part const& part, int kicks, bool drifts);
     double move_all(Motion const& motion, int kicks, bool drifts);
     int steps_together(int left) const;
     void sweep(Motion const& motion, int together);
@@ -71,7 +71,7 @@ struct Engine::Inside
     void name_overlap();
     void stop_alone() const;
     Vec3 apart(std::uint32_t row, std::uint32_t other) const;
-    void forces(std::size_t layer, double dt, kernel::Seen& seen);
+    void forces(Layers::Part const& part, bool alone, double dt, kernel::Seen& seen);
     void all_forces(double dt);
     void finish_forces(double dt, kernel::Seen const& seen);
     bool outgrown(double moved);

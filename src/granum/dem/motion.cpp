@@ -13,7 +13,7 @@ using base::Stage;
 
 namespace
 {
-constexpr int most_steps = 8;
+constexpr int most_steps = Layers::most_steps;
 
 void kick_with_gas(Frame& frame, particle::Store& granules, std::span<std::uint32_t const> rows, Vec3 const& gravity,
                    double half)
@@ -34,10 +34,10 @@ void kick_with_gas(Frame& frame, particle::Store& granules, std::span<std::uint3
 }
 }
 
-// Kicks the granules of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any went.
-double Engine::Inside::move(Motion const& motion, std::size_t layer, int kicks, bool drifts)
+// Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any went.
+double Engine::Inside::move(Motion const& motion, Layers::Part const& part, int kicks, bool drifts)
 {
-    auto const rows = layers.rows(layer);
+    auto const rows = layers.rows(part);
     double const drift = drifts ? 2 * motion.half : 0;
     if (motion.gas)
         for (int kick = 0; kick < kicks; ++kick)
@@ -64,7 +64,7 @@ double Engine::Inside::move_all(Motion const& motion, int kicks, bool drifts)
     auto const timing = stopwatch.time(Stage::contacts);
     double moved = 0;
     for (std::size_t layer = 0; layer < layers.count(); ++layer)
-        moved = std::max(moved, move(motion, layer, kicks, drifts));
+        moved = std::max(moved, move(motion, layers.whole(layer), kicks, drifts));
     return moved;
 }
 
@@ -78,9 +78,9 @@ int Engine::Inside::steps_together(int left) const
     return each * together <= room ? together : std::max(1, static_cast<int>(room / each));
 }
 
-// Does `together` steps in one sweep over the layers. Layer k takes its step t when layer k + 1 has taken step t - 1.
-// Ranks exchange layer 0 in each step, which all of them take up first; while its messages are on their way, the other
-// layers go on.
+// Does `together` steps in one sweep over the layers: layer k takes its step t when layer k + 1 has taken step t - 1.
+// Ranks exchange layer 0 in each step, which all of them take up first; while the last messages are on their way, the
+// other layers go on, strip by strip.
 void Engine::Inside::sweep(Motion const& motion, int together)
 {
     auto const timing = stopwatch.time(Stage::contacts);
@@ -91,24 +91,36 @@ void Engine::Inside::sweep(Motion const& motion, int together)
     long const before = steps;
     ++watch.sweeps;
     bool const many = comm.size() > 1;
+    auto const move_on = [&](Layers::Part const& part, std::size_t t) {
+        steps = before + static_cast<long>(t) + 1;
+        moved[t] = std::max(moved[t], move(motion, part, 2, true));
+    };
     auto const take_exchanged = [&](std::size_t t) {
         if (many) halo.end_refresh(frame);
-        forces(0, dt, seen[t]);
+        forces(layers.whole(0), false, dt, seen[t]);
     };
-    for (std::size_t front = 0; front < layers.count() + steps_of_sweep; ++front) {
-        for (std::size_t t = 0; t < std::min(steps_of_sweep, front + 1); ++t) {
+    for (std::size_t front = 0; front < steps_of_sweep; ++front)
+        for (std::size_t t = 0; t <= front; ++t) {
             std::size_t const layer = front - t;
             if (layer >= layers.count()) continue;
             if (layer == 0 && t > 0) take_exchanged(t - 1);
-            steps = before + static_cast<long>(t) + 1;
-            moved[t] = std::max(moved[t], move(motion, layer, 2, true));
+            move_on(layers.whole(layer), t);
             if (layer > 0)
-                forces(layer, dt, seen[t]);
+                forces(layers.whole(layer), false, dt, seen[t]);
             else if (many)
                 halo.begin_refresh(frame);
         }
-        if (front == steps_of_sweep) take_exchanged(steps_of_sweep - 1);
-    }
+    for (std::size_t strip = 0; strip < layers.strips(); ++strip)
+        for (std::size_t front = steps_of_sweep; front < layers.count() + steps_of_sweep; ++front) {
+            for (std::size_t t = 0; t < steps_of_sweep; ++t) {
+                std::size_t const layer = front - t;
+                if (layer >= layers.count()) continue;
+                auto const part = layers.part(strip, layer, t);
+                move_on(part, t);
+                forces(part, front > steps_of_sweep, dt, seen[t]);
+            }
+            if (strip == 0 && front == steps_of_sweep) take_exchanged(steps_of_sweep - 1);
+        }
     for (std::size_t t = 0; t < steps_of_sweep; ++t) {
         steps = before + static_cast<long>(t) + 1;
         time += dt;
@@ -132,7 +144,8 @@ void Engine::Inside::choose_most_together()
 {
     long const cache = std::max(sysconf(_SC_LEVEL2_CACHE_SIZE), 1L << 20);
     double const state = static_cast<double>(frame.rows() * sizeof(kernel::Body) + pairs.bytes_of_step());
-    double const layers_in_cache = 0.75 * static_cast<double>(cache) / state * static_cast<double>(layers.count());
+    double const layers_in_cache =
+        0.75 * static_cast<double>(cache) / state * static_cast<double>(layers.count() * layers.strips());
     // Where not even a few layers stay in this cache, the next one gains by more steps yet.
     int const own =
         layers_in_cache < 3 ? most_steps : static_cast<int>(std::min(layers_in_cache - 1, 1.0 * most_steps));

@@ -35,20 +35,20 @@ void PairList::make(Frame const& frame, Layers const& layers, Candidates& candid
     auto const &near = candidates_.near, &far = candidates_.far;
     pairs_ = near.size() + far.size();
 
-    std::size_t const count = layers.count();
+    std::size_t const count = layers.bins();
     near_next_.assign(count, 0);
     far_next_.assign(count, 0);
-    for (auto const& pair : near) ++near_next_[layers.of(pair.low, pair.high)];
-    for (auto const& pair : far) ++far_next_[layers.of(pair.low, pair.high)];
-    layer_begin_.assign(1, 0);
-    for (std::size_t layer = 0; layer < count; ++layer) {
-        std::size_t const near_blocks = (near_next_[layer] + block - 1) / block,
-                          far_blocks = (far_next_[layer] + block - 1) / block, first = layer_begin_.back();
-        near_next_[layer] = static_cast<std::uint32_t>(first * block);
-        far_next_[layer] = static_cast<std::uint32_t>((first + near_blocks) * block);
-        layer_begin_.push_back(first + near_blocks + far_blocks);
+    for (auto const& pair : near) ++near_next_[layers.bin(pair.low, pair.high)];
+    for (auto const& pair : far) ++far_next_[layers.bin(pair.low, pair.high)];
+    bin_begin_.assign(1, 0);
+    for (std::size_t bin = 0; bin < count; ++bin) {
+        std::size_t const near_blocks = (near_next_[bin] + block - 1) / block,
+                          far_blocks = (far_next_[bin] + block - 1) / block, first = bin_begin_.back();
+        near_next_[bin] = static_cast<std::uint32_t>(first * block);
+        far_next_[bin] = static_cast<std::uint32_t>((first + near_blocks) * block);
+        bin_begin_.push_back(first + near_blocks + far_blocks);
     }
-    std::size_t const blocks = layer_begin_.back();
+    std::size_t const blocks = bin_begin_.back();
     kernel::PairBlock lonely;
     std::fill_n(lonely.low, block, kernel::place_of(frame.lonely()));
     std::fill_n(lonely.high, block, kernel::place_of(frame.lonely() + 1));
@@ -63,8 +63,8 @@ void PairList::make(Frame const& frame, Layers const& layers, Candidates& candid
     };
     near_place_.resize(near.size());
     for (std::size_t k = 0; k < near.size(); ++k)
-        near_place_[k] = put(near[k], near_next_[layers.of(near[k].low, near[k].high)]++);
-    for (auto const& pair : far) put(pair, far_next_[layers.of(pair.low, pair.high)]++);
+        near_place_[k] = put(near[k], near_next_[layers.bin(near[k].low, near[k].high)]++);
+    for (auto const& pair : far) put(pair, far_next_[layers.bin(pair.low, pair.high)]++);
 
     for (std::size_t k = 0; k < known_.size(); ++k) {
         double const* const history = known_history_.data() + k * (columns_ + 1);
@@ -142,15 +142,16 @@ std::size_t PairList::bytes_of_step() const
     return blocks_.size() * (sizeof(kernel::PairBlock) + columns_ * block * sizeof(double) + 1);
 }
 
-void PairList::run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+void PairList::run(Layers::Range const& bins, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
                    kernel::Images const& images, double dt, kernel::Seen& seen)
 {
-    std::size_t const first = layer_begin_[layer];
+    std::size_t const first = bin_begin_[bins.begin], blocks = bin_begin_[bins.end] - first;
+    if (blocks == 0) return;
     kernel.pairs({.rules = &rules,
                   .bodies = frame.bodies.data(),
                   .material = mixed_ ? frame.material.data() : nullptr,
                   .pairing = frame.material[0] * (rules.materials + 1),
-                  .blocks = layer_begin_[layer + 1] - first,
+                  .blocks = blocks,
                   .pairs = blocks_.data() + first,
                   .images = images,
                   .history = history_.data() + first * columns_ * block,

@@ -1,6 +1,6 @@
 // The pairs of granules that may touch, with the history of those that do, in the blocks that the kernels work on.
 //
-// Layer by layer, pairs that touch or nearly touch when the list is made stand in front: their blocks are full of
+// Bin by bin of the layers, pairs that touch or nearly touch when the list is made stand in front: their blocks are full of
 // contacts. The others follow; most of their blocks cost a look at eight distances. What a contact remembers is carried
 // from list to list by the identity of its partners, so sorting and migration cannot lose it. A pair of which a partner
 // belongs to another rank is known on both, each with its own copy of the same history.
@@ -43,8 +43,8 @@ class PairList
                 if ((touching_[b] >> lane & 1) != 0) what(low(b, lane), high(b, lane), history(b, lane));
     }
 
-    //! Adds the forces of the pairs of a layer.
-    void run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+    //! Adds the forces of the pairs of some bins.
+    void run(Layers::Range const& bins, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
              kernel::Images const& images, double dt, kernel::Seen& seen);
 
     std::size_t pairs() const { return pairs_; }
@@ -68,7 +68,7 @@ class PairList
     base::AlignedVector<kernel::PairBlock> blocks_;
     base::AlignedVector<double> history_;
     std::vector<std::uint8_t> touching_;
-    std::vector<std::size_t> layer_begin_{0};  // of the layers' blocks
+    std::vector<std::size_t> bin_begin_{0};  // of the bins' blocks
     Candidates candidates_;
     std::vector<std::uint32_t> near_place_, near_next_, far_next_;
     // Contacts on their way from one list to the next.

@@ -184,6 +184,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     if (many) halo.fill(frame, reach);
 
     layers.make(frame, domain, halo.partition(), comm.rank(), reach);
+    watch.strips = static_cast<long>(layers.strips());
     search.find(frame, domain, centre, skin, near_part * skin, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);

@@ -148,8 +148,8 @@ void WallContacts::make(Frame const& frame, Layers const& layers, double skin, d
     layers_ = &layers;
     near_begin_.assign(1, 0);
     block_begin_.assign(1, 0);
-    for (std::size_t layer = 0; layer < layers.count(); ++layer) {
-        for (auto const row : layers.rows(layer))
+    for (std::size_t unit = 0; unit < layers.units(); ++unit) {
+        for (auto const row : layers.rows(unit))
             for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
                 auto const& plane = bodies_[b].plane;
                 Vec3 const x = frame.position(row);
@@ -213,9 +213,9 @@ void WallContacts::look_around(Vec3 const& x, double reach, std::uint32_t b)
 WallContacts::Near const* WallContacts::find(std::uint32_t row, std::uint32_t body) const
 {
     if (near_.empty()) return nullptr;
-    auto const layer = layers_->of(row);
-    auto const begin = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[layer]),
-               end = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[layer + 1]);
+    auto const unit = layers_->unit_of(row);
+    auto const begin = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[unit]),
+               end = near_.begin() + static_cast<std::ptrdiff_t>(near_begin_[unit + 1]);
     auto const at = std::lower_bound(begin, end, std::pair{row, body}, [](Near const& a, auto const& b) {
         return std::pair{a.row, a.body} < b;
     });
@@ -304,9 +304,9 @@ void WallContacts::place_touches(Near const& near, double radius, std::span<Near
     }
 }
 
-void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost)
+void WallContacts::measure(Layers::Range const& units, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost)
 {
-    for (std::size_t n = near_begin_[layer]; n < near_begin_[layer + 1]; ++n) {
+    for (std::size_t n = near_begin_[units.begin]; n < near_begin_[units.end]; ++n) {
         Near const& near = near_[n];
         Moving const& body = bodies_[near.body];
         std::size_t const end_of_facets = n + 1 < near_.size() ? near_[n + 1].facet : facets_.size();
@@ -333,13 +333,13 @@ void WallContacts::measure(std::size_t layer, kernel::Rules const& rules, Frame 
     }
 }
 
-void WallContacts::run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+void WallContacts::run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
                        double dt, kernel::Seen& seen)
 {
-    std::size_t const blocks = block_begin_[layer + 1] - block_begin_[layer];
+    std::size_t const blocks = block_begin_[units.end] - block_begin_[units.begin];
     if (blocks == 0) return;
-    measure(layer, rules, frame, seen.dissipated);
-    std::size_t const first = block * block_begin_[layer];
+    measure(units, rules, frame, seen.dissipated);
+    std::size_t const first = block * block_begin_[units.begin];
     auto const numbers = [first](Triples& of) {
         return std::array{of[0].data() + first, of[1].data() + first, of[2].data() + first};
     };
@@ -356,7 +356,7 @@ void WallContacts::run(std::size_t layer, kernel::Kernel const& kernel, kernel::
                   .velocity = {v[0], v[1], v[2]},
                   .spin = {w[0], w[1], w[2]},
                   .history = history_.data() + first * columns_,
-                  .touching = touching_.data() + block_begin_[layer],
+                  .touching = touching_.data() + block_begin_[units.begin],
                   .dt = dt,
                   .force = {f[0], f[1], f[2]},
                   .torque = {t[0], t[1], t[2]}},

@@ -44,8 +44,8 @@ class WallContacts
               std::function<std::uint32_t(std::uint32_t)> const& row_now, kernel::Rules const& rules,
               kernel::Energy& lost);
 
-    //! Finds the contacts of a layer's granules where they are now and adds their forces.
-    void run(std::size_t layer, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
+    //! Finds the contacts of the granules of some units of the layers where they are now and adds their forces.
+    void run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
              kernel::Seen& seen);
     //! To be called when all layers have run: counts the work of moving bodies and lets servos answer. Collective where
     //! a body has a servo.
@@ -115,7 +115,7 @@ class WallContacts
         std::size_t facet;
     };
 
-    void measure(std::size_t layer, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost);
+    void measure(Layers::Range const& units, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost);
     void place_touches(Near const& near, double radius, std::span<geometry::Nearest const> touches,
                        kernel::Rules const& rules, kernel::Energy& lost);
     void end(std::size_t place, kernel::Rules const& rules, kernel::Energy& lost);
@@ -139,8 +139,8 @@ class WallContacts
     double time_ = 0;
     bool any_servo_ = false, any_motion_ = false;
     std::size_t columns_ = 6, size_ = 0;
-    std::vector<Near> near_;                                   // by layer, row and body
-    std::vector<std::size_t> near_begin_{0}, block_begin_{0};  // of the layers
+    std::vector<Near> near_;                                   // by unit, row and body
+    std::vector<std::size_t> near_begin_{0}, block_begin_{0};  // of the units
     Layers const* layers_ = nullptr;
     std::vector<std::uint32_t> facets_;
     std::vector<std::uint32_t> granules_, body_;  // per place

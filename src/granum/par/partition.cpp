@@ -43,10 +43,10 @@ int Partition::owner(Vec3 const& x) const
     return -1 - cut;
 }
 
-double Partition::distance2(Vec3 const& x, int rank) const
+Vec3 Partition::off(Vec3 const& x, int rank) const
 {
     auto const& part = box(rank);
-    double sum = 0;
+    Vec3 out;
     for (std::size_t d = 0; d < 3; ++d) {
         double const low = part.lower[d], high = part.upper[d], length = space_.box.upper[d] - space_.box.lower[d];
         double off = std::max({low - x[d], x[d] - high, 0.0});
@@ -56,9 +56,9 @@ double Partition::distance2(Vec3 const& x, int rank) const
         } else if ((x[d] < low && low == space_.box.lower[d]) || (x[d] > high && high == space_.box.upper[d])) {
             off = 0;
         }
-        sum += off * off;
+        out[d] = off;
     }
-    return sum;
+    return out;
 }
 
 std::vector<int> Partition::near(int rank, double reach) const

@@ -45,9 +45,11 @@ class Partition
     Box const& box(int rank) const { return boxes_[static_cast<std::size_t>(rank)]; }
     //! Rank that owns a point of the space; beyond its faces, the rank at the face.
     int owner(Vec3 const& x) const;
-    //! Squared distance from a point to the part of a rank (over periodic faces where that is shorter), m2. Parts at
-    //! faces that are not periodic reach to infinity.
-    double distance2(Vec3 const& x, int rank) const;
+    //! How far a point is off the part of a rank along each axis (over periodic faces where that is shorter), m. Parts
+    //! at faces that are not periodic reach to infinity.
+    Vec3 off(Vec3 const& x, int rank) const;
+    //! Squared distance from a point to the part of a rank, m2.
+    double distance2(Vec3 const& x, int rank) const { return norm2(off(x, rank)); }
     //! Ranks other than this one whose part comes nearer than `reach` (m).
     std::vector<int> near(int rank, double reach) const;
 
