@@ -183,8 +183,7 @@ struct Alike
     {
         share_out(apart, cells);
         double const lower = alone.settings.lower.x, upper = alone.settings.upper.x;
-        alone.slabs = slow.slabs = {
-            .origin = lower, .width = upper - lower, .periodic = alone.settings.periodic[0]};
+        alone.slabs = slow.slabs = {.origin = lower, .width = upper - lower, .periodic = alone.settings.periodic[0]};
         for (auto* scene : {&apart, &alone, &slow}) scene->prepare();
         apart.run(steps, dt);
         alone.run(steps, dt);

@@ -9,7 +9,7 @@
 // Granules that leave a periodic domain come back at the other side in the same step.
 //
 // advance() does several steps in one sweep over the granules (layers.hpp) where no wall moves: a failure then stops
-// the run up to seven steps after the one that its message names.
+// the run up to five steps after the one that its message names.
 #pragma once
 
 #include "granum/base/exact_sum.hpp"

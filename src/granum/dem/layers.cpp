@@ -71,9 +71,8 @@ void Layers::make(Frame const& frame, Domain const& domain, par::Partition const
     double widest = 0;
     for (std::size_t row = 0; row < owned; ++row) widest = std::max(widest, across(frame.bodies[row]));
     // At least half of a strip is behind what the steps of a sweep leave to the next.
-    strips_ = static_cast<std::size_t>(
-        std::max(1.0, std::min(std::ceil(rows / static_cast<double>(count_) / most_rows),
-                               widest / (2.0 * most_steps * thickness))));
+    strips_ = static_cast<std::size_t>(std::max(1.0, std::min(std::ceil(rows / static_cast<double>(count_) / most_rows),
+                                                              widest / (2.0 * most_steps * thickness))));
     units_ = (strips_ - 1) * most_steps + 1;
     double const width = widest / static_cast<double>(strips_), first = width - (most_steps - 1) * thickness;
     auto const unit = [&](double x) -> std::size_t {

@@ -1,5 +1,5 @@
-// The granules of a rank in layers, and the layers in strips, so that several steps can be done on a part of the granules
-// while it is in the cache.
+// The granules of a rank in layers, and the layers in strips, so that several steps can be done on a part of the
+// granules while it is in the cache.
 //
 // A layer is thicker than contacts reach: what a granule of layer k does depends on layers k - 1 to k + 1 only. So
 // layer k can be moved on by a step as soon as the forces of layer k + 1 are known, whatever the layers behind have
@@ -29,7 +29,7 @@ class Layers
 {
   public:
     //! Most steps that a sweep may do.
-    static constexpr std::size_t most_steps = 8;
+    static constexpr std::size_t most_steps = 6;
 
     //! Units [first, last) of a layer.
     struct Part
@@ -63,10 +63,7 @@ class Layers
     std::span<std::uint32_t const> rows(std::size_t unit) const { return rows(Range{unit, unit + 1}); }
     std::span<std::uint32_t const> rows(Part const& part) const { return rows(units(part)); }
     //! Numbers of the units of a part among those of all layers.
-    Range units(Part const& part) const
-    {
-        return {part.layer * units_ + part.first, part.layer * units_ + part.last};
-    }
+    Range units(Part const& part) const { return {part.layer * units_ + part.first, part.layer * units_ + part.last}; }
     std::size_t unit_of(std::uint32_t row) const { return of_row_[row]; }
 
     std::size_t bins() const { return 2 * units(); }

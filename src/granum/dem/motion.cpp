@@ -34,7 +34,8 @@ void kick_with_gas(Frame& frame, particle::Store& granules, std::span<std::uint3
 }
 }
 
-// Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any went.
+// Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any
+// went.
 double Engine::Inside::move(Motion const& motion, Layers::Part const& part, int kicks, bool drifts)
 {
     auto const rows = layers.rows(part);

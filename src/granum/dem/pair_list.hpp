@@ -1,9 +1,9 @@
 // The pairs of granules that may touch, with the history of those that do, in the blocks that the kernels work on.
 //
-// Bin by bin of the layers, pairs that touch or nearly touch when the list is made stand in front: their blocks are full of
-// contacts. The others follow; most of their blocks cost a look at eight distances. What a contact remembers is carried
-// from list to list by the identity of its partners, so sorting and migration cannot lose it. A pair of which a partner
-// belongs to another rank is known on both, each with its own copy of the same history.
+// Bin by bin of the layers, pairs that touch or nearly touch when the list is made stand in front: their blocks are
+// full of contacts. The others follow; most of their blocks cost a look at eight distances. What a contact remembers is
+// carried from list to list by the identity of its partners, so sorting and migration cannot lose it. A pair of which a
+// partner belongs to another rank is known on both, each with its own copy of the same history.
 #pragma once
 
 #include "granum/dem/layers.hpp"

@@ -304,7 +304,8 @@ void WallContacts::place_touches(Near const& near, double radius, std::span<Near
     }
 }
 
-void WallContacts::measure(Layers::Range const& units, kernel::Rules const& rules, Frame const& frame, kernel::Energy& lost)
+void WallContacts::measure(Layers::Range const& units, kernel::Rules const& rules, Frame const& frame,
+                           kernel::Energy& lost)
 {
     for (std::size_t n = near_begin_[units.begin]; n < near_begin_[units.end]; ++n) {
         Near const& near = near_[n];
@@ -333,8 +334,8 @@ void WallContacts::measure(Layers::Range const& units, kernel::Rules const& rule
     }
 }
 
-void WallContacts::run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
-                       double dt, kernel::Seen& seen)
+void WallContacts::run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules,
+                       Frame& frame, double dt, kernel::Seen& seen)
 {
     std::size_t const blocks = block_begin_[units.end] - block_begin_[units.begin];
     if (blocks == 0) return;

@@ -45,8 +45,8 @@ class WallContacts
               kernel::Energy& lost);
 
     //! Finds the contacts of the granules of some units of the layers where they are now and adds their forces.
-    void run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame, double dt,
-             kernel::Seen& seen);
+    void run(Layers::Range const& units, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
+             double dt, kernel::Seen& seen);
     //! To be called when all layers have run: counts the work of moving bodies and lets servos answer. Collective where
     //! a body has a servo.
     void finish(kernel::Rules const& rules, Frame const& frame, double dt, par::Communicator const& comm);
