@@ -37,7 +37,6 @@ struct Engine::Inside
     long steps = 0, built_step = 0;
     bool sorted = false;  // rows, at least once
     long unsorted_rebuilds = 0, unbalanced_rebuilds = 0;
-    int most_together = 1;  // steps that one sweep over the layers may do; the same on all ranks
     double last_moved = 0;  // at most, by any granule of any rank in the last step, m
     double reserve = 2;     // a sweep is begun if the list will do for so many times as long
     std::string failure;    // seen on this rank, not yet told to the others
@@ -63,7 +62,6 @@ struct Engine::Inside
     double move_all(Motion const& motion, int kicks, bool drifts);
     int steps_together(int left) const;
     void sweep(Motion const& motion, int together);
-    void choose_most_together();
 
     // engine.cpp
     void agree_on_failure();

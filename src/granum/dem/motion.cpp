@@ -1,8 +1,6 @@
 // Moving granules on: layer by layer, one step at a time or several in one sweep.
 #include "granum/dem/engine_inside.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,13 +67,13 @@ double Engine::Inside::move_all(Motion const& motion, int kicks, bool drifts)
     return moved;
 }
 
-// How many of the `left` steps the next sweep does: as many as keep a sweep's layers in the cache, and as the list
-// will do for with some reserve, since nobody looks at it on the way.
+// How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody looks
+// at it on the way.
 int Engine::Inside::steps_together(int left) const
 {
     if (walls.any_motion()) return 1;
     double const room = std::max(0.0, 0.5 * skin - growth - travelled), each = reserve * last_moved;
-    int const together = std::min({left, most_together, most_steps});
+    int const together = std::min(left, most_steps);
     return each * together <= room ? together : std::max(1, static_cast<int>(room / each));
 }
 
@@ -138,18 +136,5 @@ void Engine::Inside::sweep(Motion const& motion, int together)
         ++watch.late_lists;
         reserve *= 2;
     }
-}
-
-// With several ranks all must come to the same.
-void Engine::Inside::choose_most_together()
-{
-    long const cache = std::max(sysconf(_SC_LEVEL2_CACHE_SIZE), 1L << 20);
-    double const state = static_cast<double>(frame.rows() * sizeof(kernel::Body) + pairs.bytes_of_step());
-    double const layers_in_cache =
-        0.75 * static_cast<double>(cache) / state * static_cast<double>(layers.count() * layers.strips());
-    // Where not even a few layers stay in this cache, the next one gains by more steps yet.
-    int const own =
-        layers_in_cache < 3 ? most_steps : static_cast<int>(std::min(layers_in_cache - 1, 1.0 * most_steps));
-    most_together = static_cast<int>(-comm.max(static_cast<long>(-own)));
 }
 }

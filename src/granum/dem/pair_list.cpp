@@ -137,11 +137,6 @@ std::size_t PairList::bytes() const
            4 * (candidates_.near_begin.capacity() + candidates_.near_end.capacity() + near_place_.capacity());
 }
 
-std::size_t PairList::bytes_of_step() const
-{
-    return blocks_.size() * (sizeof(kernel::PairBlock) + columns_ * block * sizeof(double) + 1);
-}
-
 void PairList::run(Layers::Range const& bins, kernel::Kernel const& kernel, kernel::Rules const& rules, Frame& frame,
                    kernel::Images const& images, double dt, kernel::Seen& seen)
 {

@@ -51,7 +51,6 @@ class PairList
     std::size_t blocks() const { return blocks_.size(); }
     bool empty() const { return blocks_.empty(); }
     std::size_t bytes() const;
-    std::size_t bytes_of_step() const;  //!< read or written in a step
 
     History history(std::size_t b, std::size_t lane) const;
     std::uint32_t low(std::size_t b, std::size_t lane) const { return kernel::row_of(blocks_[b].low[lane]); }

@@ -216,7 +216,6 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         std::copy_n(body.position, 4, body.built);
     }
     built_step = steps;
-    choose_most_together();
     growth = 0;
     travelled = 0;
     ++watch.rebuilds;
