@@ -67,8 +67,8 @@ double Engine::Inside::move_all(Motion const& motion, int kicks, bool drifts)
     return moved;
 }
 
-// How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody looks
-// at it on the way.
+// How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody
+// looks at it on the way.
 int Engine::Inside::steps_together(int left) const
 {
     if (walls.any_motion()) return 1;
