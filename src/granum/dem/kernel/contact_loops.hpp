@@ -348,7 +348,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
             Mask const touch = distance2 < reach * reach;
             unsigned const bits = touch.bits();
             if (rules.ledger && (before >> s & ~bits & ((1u << width) - 1)) != 0)
-                tally.ended(!touch, shares(places_low, places_high, place_of(in.owned)),
+                tally.ended(!touch, shares(read_again(places_low), read_again(places_high), place_of(in.owned)),
                             history + (columns - 1) * block);
             if (bits == 0) {
                 forget(before >> s, history, columns);
@@ -370,7 +370,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
             // 1/(a b) gives both quotients with one division.
             Lanes const inverse_mass = low.inverse_mass + high.inverse_mass;
             Lanes const inverse_both = reciprocal(reach * inverse_mass);
-            pairings.set(seat, places_low, places_high);
+            pairings.set(seat, read_again(places_low), read_again(places_high));
             auto& at = contact.at;
             at.overlap.part(seat) = overlap;
             at.radius.part(seat) = low.radius * high.radius * (inverse_both * inverse_mass);

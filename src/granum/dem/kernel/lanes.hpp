@@ -257,6 +257,15 @@ HWY_INLINE Both inverse_fourth_root(Both x)
     return {inverse_fourth_root(x.a), inverse_fourth_root(x.b)};
 }
 
+// The same pointer, of which the compiler forgets what it has read there: more addresses than registers would be kept in
+// places dearer than the memory that they come from.
+template <class T>
+HWY_INLINE T const* read_again(T const* from)
+{
+    __asm__("" : "+r"(from));
+    return from;
+}
+
 // Numbers of `width` rows, each at its own distance from `base`.
 struct Addresses
 {
@@ -264,9 +273,7 @@ struct Addresses
     std::uint32_t const* distance;
 
     HWY_INLINE double* at(std::size_t lane) const { return base + distance[lane]; }
-    // Makes the compiler read the distances again: more addresses than registers would be kept in places dearer than
-    // the memory that they come from.
-    HWY_INLINE void forget() { __asm__("" : "+r"(distance)); }
+    HWY_INLINE void forget() { distance = read_again(distance); }
 };
 
 // Four numbers of `width` rows: out[k] holds the k-th numbers behind `offset` of the rows.
