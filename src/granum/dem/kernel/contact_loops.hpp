@@ -303,6 +303,15 @@ HWY_INLINE void forget(unsigned before, double* history, std::size_t columns)
     for (std::size_t c = 0; c < columns; ++c) store(Lanes(0.0), history + c * block);
 }
 
+// Partners are scattered: what a block asks for first is on its way two blocks before.
+constexpr std::size_t blocks_ahead = 2;
+
+HWY_INLINE void fetch_positions(Body const* bodies, PairBlock const& pairs)
+{
+    for (auto const* places : {pairs.low, pairs.high})
+        for (std::size_t k = 0; k < block; ++k) __builtin_prefetch(bodies->position + places[k], 1);
+}
+
 HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
 {
     Rules const& rules = *in.rules;
@@ -333,6 +342,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
         if (rules.ledger) tally.energies(contact, k, shares(low.places, high.places, place_of(in.owned)));
     };
     for (std::size_t b = 0; b < in.blocks; ++b) {
+        if (b + blocks_ahead < in.blocks) fetch_positions(in.bodies, in.pairs[b + blocks_ahead]);
         unsigned const before = in.touching[b];
         unsigned now = 0;
         for (std::size_t s = 0; s < block; s += width) {
