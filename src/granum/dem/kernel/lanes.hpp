@@ -257,8 +257,8 @@ HWY_INLINE Both inverse_fourth_root(Both x)
     return {inverse_fourth_root(x.a), inverse_fourth_root(x.b)};
 }
 
-// The same pointer, of which the compiler forgets what it has read there: more addresses than registers would be kept in
-// places dearer than the memory that they come from.
+// The same pointer, of which the compiler forgets what it has read there: more addresses than registers would be kept
+// in places dearer than the memory that they come from.
 template <class T>
 HWY_INLINE T const* read_again(T const* from)
 {
