@@ -66,10 +66,10 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
     double width = settings.skin;
     if (width <= 0) {
         double const least = 0.05 * mean_radius, most = 0.8 * mean_radius;
-        width = 0.1 * mean_radius;
-        if (skin > 0) {
+        width = skin > 0 ? skin : 0.1 * mean_radius;
+        if (skin > 0 && steps > built_step) {  // a list that served no step says nothing
             constexpr double list_cost = 120;
-            double const steps_per_width = static_cast<double>(std::max(1L, steps - built_step)) / skin;
+            double const steps_per_width = static_cast<double>(steps - built_step) / skin;
             // Pairs per granule and unit of width at a solids fraction of 0.5: 12 phi / R.
             double const pairs_per_width = 6 / mean_radius;
             width = std::sqrt(list_cost / (steps_per_width * pairs_per_width));

@@ -1,5 +1,6 @@
 #include "granum/dem/neighbours.hpp"
 #include "granum/base/random.hpp"
+#include "scene/granules.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,5 +84,17 @@ TEST(NeighbourSearch, sorts_every_row_once_so_that_neighbours_follow_each_other)
     EXPECT_EQ(std::set<std::uint32_t>(order.begin(), order.end()).size(), 50u);
     for (std::size_t k = 1; k < order.size(); ++k)
         EXPECT_LT(frame.position(order[k - 1]).x, frame.position(order[k]).x + 2.1e-3);
+}
+
+TEST(NeighbourList, made_anew_before_a_step_was_done_is_as_wide_as_before)
+{
+    // Several ranks make one when they have shared the granules, and another when they have balanced them.
+    scene::Scene scene(scene::glass);
+    scene.add({0, 0, 0}, {}, 1e-3, 2500);
+    scene.add({2.05e-3, 0, 0}, {}, 1e-3, 2500);
+    scene.prepare();
+    double const width = scene.engine->skin();
+    for (int again = 0; again < 3; ++again) scene.engine->prepare(scene.granules);
+    EXPECT_EQ(scene.engine->skin(), width);
 }
 }
