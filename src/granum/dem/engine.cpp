@@ -319,8 +319,7 @@ std::vector<Contact> Engine::contacts() const
     auto const normal_force = [&](std::size_t pairing, double overlap, double radius, double mass, double speed) {
         law::contact::Approach<double> const at{
             .overlap = overlap, .radius = radius, .mass = mass, .inertia = 1, .speed = speed, .step = 0};
-        return std::visit([&](auto const& law) { return law(in.pairings[pairing], at).force; },
-                          in.settings.laws.normal);
+        return std::visit([&](auto const& law) { return law(in.pairings[pairing], at); }, in.settings.laws.normal);
     };
     std::size_t const materials = in.rules.materials;
     for (std::size_t b = 0; b < in.pairs.blocks(); ++b)
@@ -331,22 +330,47 @@ std::vector<Contact> Engine::contacts() const
             Vec3 const apart = in.apart(low, high);
             double const distance = norm(apart), overlap = one.radius + other.radius - distance;
             double const speed = dot(Frame::vec(one.velocity) - Frame::vec(other.velocity), apart) / distance;
-            out.push_back({frame.id[low], frame.id[high], false, overlap,
-                           normal_force(frame.material[low] * materials + frame.material[high], overlap,
-                                        one.radius * other.radius / (one.radius + other.radius),
-                                        1 / (one.inverse_mass + other.inverse_mass), speed),
-                           in.pairs.history(b, lane), std::min(one.radius, other.radius)});
+            double const reduced = one.radius * other.radius / (one.radius + other.radius);
+            auto const force = normal_force(frame.material[low] * materials + frame.material[high], overlap, reduced,
+                                            1 / (one.inverse_mass + other.inverse_mass), speed);
+            out.push_back({frame.id[low],
+                           frame.id[high],
+                           false,
+                           overlap,
+                           force.force,
+                           in.pairs.history(b, lane),
+                           std::min(one.radius, other.radius),
+                           reduced,
+                           force.elastic,
+                           {low, high}});
         }
     for (std::size_t k = 0; k < in.walls.size(); ++k) {
         if (!in.walls.touches(k)) continue;
         auto const row = in.walls.row(k), wall = in.walls.body(k);
         auto const& body = frame.bodies[row];
         double const speed = dot(Frame::vec(body.velocity) - in.walls.velocity(k), in.walls.normal(k));
-        out.push_back({frame.id[row], wall, true, in.walls.overlap(k),
-                       normal_force(frame.material[row] * materials + in.settings.walls[wall].material,
-                                    in.walls.overlap(k), body.radius, 1 / body.inverse_mass, speed),
-                       in.walls.history(k), body.radius});
+        auto const force = normal_force(frame.material[row] * materials + in.settings.walls[wall].material,
+                                        in.walls.overlap(k), body.radius, 1 / body.inverse_mass, speed);
+        out.push_back({frame.id[row],
+                       wall,
+                       true,
+                       in.walls.overlap(k),
+                       force.force,
+                       in.walls.history(k),
+                       body.radius,
+                       body.radius,
+                       force.elastic,
+                       {row, row}});
     }
+    return out;
+}
+
+std::vector<double> Engine::known_here(std::span<double const> owned) const
+{
+    auto const& in = *inside_;
+    std::vector<double> out(owned.begin(), owned.end());
+    out.resize(in.frame.rows());
+    if (in.comm.size() > 1) in.halo.spread(out);
     return out;
 }
 

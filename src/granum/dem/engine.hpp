@@ -75,7 +75,11 @@ struct Contact
     double overlap;       //!< m
     double normal_force;  //!< N, at the present velocities
     History history;
-    double radius;  //!< of the smaller partner, m
+    double radius;                      //!< of the smaller partner, m
+    double reduced_radius;              //!< R_i R_j / (R_i + R_j), m
+    double elastic_force;               //!< N, of the normal law at rest
+    std::array<std::uint32_t, 2> rows;  //!< of low and high (of a wall contact: of the granule, twice), as in
+                                        //!< Engine::known_here
 };
 
 class Engine
@@ -115,6 +119,9 @@ class Engine
 
     //! All contacts that touch, as this rank sees them.
     std::vector<Contact> contacts() const;
+    //! A number per row of all granules that this rank knows: those of owned rows as given, behind them what the owners
+    //! of the others have given. Collective.
+    std::vector<double> known_here(std::span<double const> owned) const;
     //! All contacts to save, each on one rank only.
     std::vector<ContactRecord> save_contacts() const;
 

@@ -173,4 +173,20 @@ void Halo::refresh_all(Frame& frame)
         for (std::size_t k = 0; k < side.count; ++k) frame.bodies[side.first + k] = take<Copy>(bytes).body;
     }
 }
+
+void Halo::spread(std::vector<double>& of_rows) const
+{
+    std::vector<MPI_Request> requests;
+    std::vector<std::vector<double>> sent;
+    for (auto const& side : sides_)
+        MPI_Irecv(of_rows.data() + side.first, static_cast<int>(side.count), MPI_DOUBLE, side.rank, 4, comm_.handle(),
+                  &requests.emplace_back());
+    for (auto const& side : sides_) {
+        auto& out = sent.emplace_back();
+        for (auto const row : side.rows) out.push_back(of_rows[row]);
+        MPI_Isend(out.data(), static_cast<int>(out.size()), MPI_DOUBLE, side.rank, 4, comm_.handle(),
+                  &requests.emplace_back());
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
 }

@@ -48,6 +48,9 @@ class Halo
     //! Copies all that a copy holds. Collective.
     void refresh_all(Frame& frame);
 
+    //! Fills the copies' places behind the owned rows with what their owners have. Collective.
+    void spread(std::vector<double>& of_rows) const;
+
   private:
     struct Side
     {

@@ -188,6 +188,16 @@ coupling::Laws exchange_laws(Case const& data)
     return {named<law::drag::All>(data.gas.drag), named<law::heat::All>(data.gas.heat_transfer)};
 }
 
+coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
+{
+    std::vector<coupling::Conductor> conductors;
+    for (auto const& material : data.contact.materials)
+        conductors.push_back({.conductivity = material.heat_conductivity,
+                              .youngs_modulus = material.real_youngs_modulus,
+                              .poisson_ratio = material.poisson_ratio});
+    return {named<law::conduction::All>(data.contact.conduction), std::move(conductors), comm};
+}
+
 spray::Liquid spray_liquid(Case const& data)
 {
     auto const& s = data.spray;

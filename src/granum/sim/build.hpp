@@ -1,6 +1,7 @@
 // From the resolved case to the settings of the rooms.
 #pragma once
 
+#include "granum/coupling/conduction.hpp"
 #include "granum/coupling/exchange.hpp"
 #include "granum/dem/engine.hpp"
 #include "granum/dem/hard_spheres.hpp"
@@ -25,6 +26,8 @@ dem::HardOptions hard_options(Case const& data);
 particle::Groups column_groups(Case const& data);
 
 gas::Settings gas_settings(Case const& data);
+//! What passes heat between granules that touch.
+coupling::Conduction conduction(Case const& data, par::Communicator const& comm);
 coupling::Laws exchange_laws(Case const& data);
 
 spray::Liquid spray_liquid(Case const& data);

@@ -25,7 +25,9 @@ struct MaterialCase
     double density = 0;           //!< kg/m3 of granules; 0: not given
     double youngs_modulus = 1e7;  //!< Pa, usually softened
     double poisson_ratio = 0.25;
-    bool rigid = false;  //!< does not yield: only the partner's modulus counts
+    bool rigid = false;              //!< does not yield: only the partner's modulus counts
+    double heat_conductivity = 0;    //!< W/m/K; 0: passes no heat to what it touches
+    double real_youngs_modulus = 0;  //!< Pa; 0: not given
 };
 struct ContactPair
 {
@@ -45,6 +47,7 @@ struct ContactCase
     std::string normal = "hertz-tsuji";                           //!< law names
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
+    std::string conduction = "none";
     //! s; of `linear`, in place of stiffnesses: of two of the smallest granules; of hard spheres: a collision sooner
     //! than this after another of the same granule is elastic.
     std::optional<double> contact_time;
@@ -55,6 +58,7 @@ struct ContactCase
     bool keep_attraction = false;          //!< keep the tensile end of a damped contact (Tsuji's own damping)
 
     bool hard() const { return engine == "hard"; }
+    bool conducts() const { return conduction != "none"; }
 };
 
 //! One granule with its place: from [[granule]] tables, a CSV file or another run.

@@ -68,6 +68,27 @@ ContactPair read_pair(io::CaseFile& file, ContactCase const& contact, std::strin
     return pair;
 }
 
+//! What passes heat through contacts, from the keys with this beginning.
+void read_conductor(io::CaseFile& file, ContactCase const& contact, std::string const& prefix, MaterialCase& material)
+{
+    if (contact.conducts()) {
+        material.heat_conductivity =
+            file.quantity(prefix + "heat_conductivity", Dimension::conductivity, material.heat_conductivity,
+                          "of the solid; 0: passes no heat to what it touches", io::not_negative);
+        material.real_youngs_modulus =
+            file.optional_quantity(prefix + "real_youngs_modulus", Dimension::pressure,
+                                   "not softened: heat passes the circle that the real granules have", io::positive)
+                .value_or(material.real_youngs_modulus);
+        return;
+    }
+    for (auto const& key : {prefix + "heat_conductivity", prefix + "real_youngs_modulus"}) {
+        if (file.has(key))
+            file.mistake(key, "has no meaning where contacts pass no heat",
+                         {"choose contact.conduction = \"hertz\" or leave the key out"});
+        file.know(key);
+    }
+}
+
 //! The laws and the numbers that only some of them read.
 void read_laws(io::CaseFile& file, ContactCase& contact)
 {
@@ -82,7 +103,7 @@ void read_laws(io::CaseFile& file, ContactCase& contact)
         belongs_to(file, "contact.tangential_restitution", "contact.engine", contact.engine, "hard");
     for (auto const* key :
          {"contact.normal", "contact.tangential", "contact.rolling", "contact.lever_radius", "contact.keep_attraction",
-          "contact.reference_speed", "contact.tangential_ratio", "contact.rigid_wall"})
+          "contact.reference_speed", "contact.tangential_ratio", "contact.rigid_wall", "contact.conduction"})
         for_soft(file, contact, key);
     if (contact.hard()) {
         contact.contact_time =
@@ -96,6 +117,11 @@ void read_laws(io::CaseFile& file, ContactCase& contact)
                                    "a tangential contact law");
     contact.rolling =
         file.name("contact.rolling", contact.rolling, "law", laws_for("contact.rolling"), "a rolling contact law");
+    contact.conduction = file.name("contact.conduction", contact.conduction, "law, of heat through contacts",
+                                   laws_for("contact.conduction"), "a law of heat conduction through contacts");
+    if (contact.conducts() && !file.has("gas"))
+        file.mistake("contact.conduction", "goes with gas: granules alone have no temperature",
+                     {"leave it out, or add [gas]"});
     if (for_linear(file, contact, "contact.contact_time"))
         contact.contact_time =
             file.optional_quantity("contact.contact_time", Dimension::time,
@@ -173,6 +199,7 @@ void read_contact(io::CaseFile& file, Case& data)
         wall.youngs_modulus = modulus(file, "contact.wall_youngs_modulus", granule.youngs_modulus, "of the walls");
         wall.poisson_ratio = number(file, "contact.wall_poisson_ratio", granule.poisson_ratio, "of the walls", poisson);
     }
+    read_conductor(file, contact, "contact.", granule);
     contact.materials = {granule, wall};
     for (auto const& name : own_names) {
         auto const key = "material." + name + ".";
@@ -185,6 +212,9 @@ void read_contact(io::CaseFile& file, Case& data)
         material.poisson_ratio =
             number(file, key + "poisson_ratio", granule.poisson_ratio, "that of [contact]", poisson);
         material.rigid = file.boolean(key + "rigid", false, "does not yield");
+        material.heat_conductivity = granule.heat_conductivity;
+        material.real_youngs_modulus = granule.real_youngs_modulus;
+        read_conductor(file, contact, key, material);
         if (name == "granule" || name == "wall")
             file.mistake("material." + name, "has a name that stands for the values of [contact] itself",
                          {"choose another name, or state them in [contact]"});
@@ -199,5 +229,9 @@ void read_contact(io::CaseFile& file, Case& data)
         if (a >= 1) contact.pairs[a][1] = on_wall;
     }
     read_pairs(file, contact);
+    if (contact.conducts() && std::all_of(contact.materials.begin(), contact.materials.end(),
+                                          [](auto const& m) { return m.heat_conductivity == 0; }))
+        file.mistake("contact.heat_conductivity", "is missing: contacts are to pass heat",
+                     {"e.g. heat_conductivity = \"0.3 W/m/K\" in [contact]"});
 }
 }

@@ -106,6 +106,13 @@ void add_warnings(Case const& data, Forecast& out)
         warn(fmt::format(
             "contacts at {:.2g} m/s overlap by {:.0f} % of a radius (10 % is the limit): raise contact.youngs_modulus",
             out.overlap_speed, 100 * out.overlap));
+    for (auto const& material : data.contact.materials)
+        if (data.contact.conducts() && material.heat_conductivity > 0 && material.real_youngs_modulus == 0 &&
+            material.name != "wall" && material.youngs_modulus < 1e9)
+            warn(
+                fmt::format("contacts of \"{}\" are as wide as those of granules of {:.3g} Pa, and pass as much heat: "
+                            "state contact.real_youngs_modulus",
+                            material.name, material.youngs_modulus));
     if (data.granules.parcel_ratio > 10)
         warn(fmt::format("a parcel stands for {:.0f} granules: mixing and contact statistics are coarse",
                          std::pow(data.granules.parcel_ratio, 3)));

@@ -1,6 +1,7 @@
 #include "granum/sim/law_families.hpp"
 
 #include "granum/law/capture/all.hpp"
+#include "granum/law/conduction/all.hpp"
 #include "granum/law/contact/all.hpp"
 #include "granum/law/deposit/all.hpp"
 #include "granum/law/drag/all.hpp"
@@ -35,6 +36,7 @@ std::vector<LawFamily> const& law_families()
         family<law::contact::NormalLaws>("contact-normal", "contact.normal", "contact force along the line of centres"),
         family<law::contact::TangentialLaws>("contact-tangential", "contact.tangential", "contact force across it"),
         family<law::contact::RollingLaws>("contact-rolling", "contact.rolling", "resistance to rolling"),
+        family<law::conduction::All>("contact-conduction", "contact.conduction", "heat between granules that touch"),
         family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
         family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
         family<product::All>("porosity", "product.porosity_model",

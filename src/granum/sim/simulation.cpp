@@ -208,6 +208,12 @@ void Simulation::gas_step(double dt)
         double const mismatch =
             exchange_->deliver(granules_, gas_, solver_->exchanged_temperature(), dt, seen_, sources_);
         ledgers_.momentum = std::max(ledgers_.momentum, mismatch);
+        if (conduction_->passes_heat()) {
+            std::vector<double> capacity(granules_.owned);
+            for (std::size_t row = 0; row < granules_.owned; ++row)
+                capacity[row] = exchange_->heat_capacity(granules_, row);
+            conduction_->pass(*engine_, granules_, capacity, dt);
+        }
     }
     if (case_.spray.present) engine_->changed(granules_);
 }

@@ -5,6 +5,7 @@
 // audit.
 #pragma once
 
+#include "granum/coupling/conduction.hpp"
 #include "granum/coupling/exchange.hpp"
 #include "granum/dem/engine.hpp"
 #include "granum/drying/drying.hpp"
@@ -141,6 +142,7 @@ class Simulation
     gas::Sources sources_;
     std::unique_ptr<coupling::Mapping> mapping_;
     std::unique_ptr<coupling::Exchange> exchange_;
+    std::unique_ptr<coupling::Conduction> conduction_;
     coupling::Seen seen_;
     std::vector<spray::Nozzle> nozzles_;
     std::vector<grid::Field> nozzle_weights_;  //!< share of each nozzle's air per cell

@@ -45,6 +45,7 @@ void Simulation::make_gas()
     mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, gas.smoothing);
     exchange_ = std::make_unique<coupling::Exchange>(exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
                                                      gas.pressure, case_.granules.heat_capacity, case_.granules.frozen);
+    conduction_ = std::make_unique<coupling::Conduction>(conduction(case_, comm_));
 }
 
 void Simulation::start_gas()

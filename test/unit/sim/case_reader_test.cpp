@@ -63,6 +63,28 @@ TEST(CaseReader, turns_a_contact_time_into_stiffnesses_that_last_as_long)
     EXPECT_NE(mistakes_of(text("stiffness = \"100 Pa\"\n")).find("contact.stiffness"), std::string::npos);
 }
 
+TEST(CaseReader, wants_all_that_heat_through_contacts_needs_and_nothing_else)
+{
+    auto const text = [](std::string const& contact, bool with_gas = true) {
+        return box + "[granules]\ndiameter = \"2 mm\"\ndensity = \"1500 kg/m3\"\nmass = \"1 g\"\n" +
+               (with_gas ? gas + "velocity = \"0.5 m/s\"\nhumidity = \"8 g/kg\"\n" : "") + "[contact]\n" + contact +
+               "[material.steel]\n" + (contact.empty() ? "" : "heat_conductivity = \"15 W/m/K\"\n");
+    };
+    auto const read = read_text(text("conduction = \"hertz\"\nheat_conductivity = \"0.3 W/m/K\"\n"));
+    auto const& materials = read.data.contact.materials;
+    EXPECT_EQ(materials[0].heat_conductivity, 0.3);
+    EXPECT_EQ(materials[1].heat_conductivity, 0);
+    EXPECT_EQ(materials[2].heat_conductivity, 15);
+    auto const has = [](std::string const& what, char const* part) { return what.find(part) != std::string::npos; };
+    EXPECT_TRUE(std::any_of(read.warnings.begin(), read.warnings.end(),
+                            [&](auto const& said) { return has(said, "contact.real_youngs_modulus"); }));
+    EXPECT_FALSE(read_text(text("")).data.contact.conducts());
+    EXPECT_TRUE(has(mistakes_of(text("conduction = \"hertz\"\n", false)), "goes with gas"));
+    EXPECT_TRUE(has(mistakes_of(text("heat_conductivity = \"0.3 W/m/K\"\n")), "has no meaning"));
+    EXPECT_TRUE(has(mistakes_of(box + "[granules]\nmass = \"1 g\"\n" + gas + "[contact]\nconduction = \"lens\"\n"),
+                    "contact.heat_conductivity"));
+}
+
 TEST(CaseReader, refuses_the_parameter_of_a_contact_law_that_is_not_chosen)
 {
     for (auto const* line : {"stiffness = \"100 N/m\"", "wall_stiffness = \"100 N/m\"", "contact_time = \"1 ms\"",

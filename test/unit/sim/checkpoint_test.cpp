@@ -99,6 +99,16 @@ TEST(Continued, a_spray_ends_with_the_same_bits)
     cut(sim::read_case(folder / "case.toml").data, 0.01, 0.02);
 }
 
+TEST(Continued, a_spray_on_granules_that_pass_heat_ends_with_the_same_bits)
+{
+    scene::TemporaryFolder const folder;
+    scene::write_lab_case(folder / "case.toml",
+                          {{"parcels", "1200"},
+                           {"cells", "[8, 8, 32]"},
+                           {"youngs_modulus", "\"10 MPa\"\nconduction = \"hertz\"\nheat_conductivity = \"50 W/m/K\""}});
+    cut(sim::read_case(folder / "case.toml").data, 0.01, 0.02);
+}
+
 // From now on new state enters the checkpoint. Whoever meets a failure here added a member: save it in
 // sim/checkpoint.cpp or output_state.cpp, or say there why the next step does not depend on it; then put the new size.
 TEST(Continued, no_member_was_added_to_the_state_without_a_thought)
