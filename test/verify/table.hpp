@@ -62,7 +62,7 @@ class Table : public ::testing::Environment
         out << "# Verification\n\nWritten by `./dev test verify`; do not edit. Each row holds a number of this program "
                "against one that did not\ncome from it: a closed form, an independent small program, a table of "
                "somebody else. Rows that name a motion go through\nthe step that `granum run` takes, from a case as a "
-               "user would write it. P: the project's test matrix; D and X: the reference\ncases dem-NN and x-NN of "
+               "user would write it. P: the project's test matrix; D, X, H: reference\ncases dem-NN, x-NN, h-NN of "
                "`test/reference/`. Published: how far other codes are from the same number, as far as that is "
                "known.\n\n";
         out << "| id | quantity | reference | ours | difference | tolerance | published | verdict "
