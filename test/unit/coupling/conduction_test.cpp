@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 using namespace granum;
 using coupling::Conduction;
 using coupling::Conductor;
@@ -87,6 +90,39 @@ TEST(Conduction, through_softened_spheres_is_that_of_real_ones_at_the_same_force
     EXPECT_NEAR(gain(1.6e-5, real), softened / 4, 1e-9 * softened);
     EXPECT_NEAR(gain(1.6e-5, real), gain(1e-6, 0), 1e-9 * softened);
     EXPECT_NEAR(gain(1.6e-5, soft), softened, 1e-9 * softened);
+}
+
+TEST(Conduction, has_the_same_bits_in_any_order_of_rows)
+{
+    // A sphere with six around it, each as hot as its number says; it begins without heat, so that all bits of what it
+    // gets are seen.
+    std::array<math::Vec3, 7> const places{
+        {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+    par::Communicator const self{MPI_COMM_SELF};
+    Conduction const conduction(hertz, {{.conductivity = 2}}, self);
+    auto const centre = [&](double hot, std::array<std::size_t, 7> const& order) {
+        scene::Scene scene(scene::limestone);
+        scene.settings.frozen = true;
+        for (auto const number : order) {
+            auto const row = scene.add(1.99e-3 * places[number], {}, 1e-3, 2500);
+            scene.granules.id[row] = number;
+        }
+        scene.prepare();
+        auto& granules = scene.granules;
+        std::vector<double> const capacity(7, 0.01);
+        for (std::size_t row = 0; row < 7; ++row) {
+            granules.temperature[row] = math::zero_celsius + hot * std::sqrt(static_cast<double>(granules.id[row]));
+            granules.enthalpy[row] = 0.01 * (granules.temperature[row] - math::zero_celsius);
+        }
+        conduction.pass(*scene.engine, granules, capacity, 0.05);
+        return granules.enthalpy[scene.row(0)];
+    };
+    for (double const hot : {3.1, 7.3, 11.7, 17.9, 29.3, 41.1}) {
+        double const one = centre(hot, {0, 1, 2, 3, 4, 5, 6});
+        EXPECT_EQ(centre(hot, {6, 4, 2, 0, 1, 3, 5}), one);
+        EXPECT_EQ(centre(hot, {3, 5, 1, 6, 0, 2, 4}), one);
+        EXPECT_GT(one, 0);
+    }
 }
 
 TEST(Conduction, that_would_need_endless_parts_is_refused)
