@@ -83,7 +83,7 @@ TEST(PackedBed, begins_to_float_at_the_speed_of_its_law_and_packing)
         double sum = 0;
         for (int k = lowest; k <= highest; ++k)
             sum += (k == lowest || k == highest ? 0.5 : 1) * gradient(layer(simulation->gas().voidage, k)) *
-                   grid.spacing.z;
+                   grid.axes[2].width(0);
         return sum;
     };
     // Ergun's equation as he wrote it (Chem. Eng. Prog. 48 (1952) 89), layer by layer, and the weight of the layers.
@@ -96,7 +96,7 @@ TEST(PackedBed, begins_to_float_at_the_speed_of_its_law_and_packing)
     };
     double const weight = over_layers([&](double eps) { return (1445 - density) * g * (1 - eps); });
     double const drop = layer(simulation->gas().pressure, lowest) - layer(simulation->gas().pressure, highest) -
-                        density * g * (highest - lowest) * grid.spacing.z;
+                        density * g * (highest - lowest) * grid.axes[2].width(0);
     auto const carries = [&](double share) {  // the speed at which the share of Ergun's drop is the weight
         double low = 0, high = 1;
         while (high - low > 1e-9) (share * ergun(0.5 * (low + high)) < weight ? low : high) = 0.5 * (low + high);

@@ -70,7 +70,7 @@ class Mapping
     void smooth(std::span<Field* const> fields) const;
 
     Grid const& grid_;
-    par::Communicator const& comm_;
+    Field open_fraction_;
     std::vector<Stencil> stencils_;
     std::vector<std::uint32_t> order_;
     grid::FaceField conductance_;  //!< m3 exchanged through each lower face in a pass

@@ -311,6 +311,21 @@ void Engine::rebalance(particle::Store& granules)
     in.frame.give(granules);
 }
 
+void Engine::repartition(particle::Store& granules, par::Partition partition)
+{
+    auto& in = *inside_;
+    in.frame.give(granules);
+    in.halo.partition(std::move(partition));
+    ++in.watch.rebalances;
+    in.rebuild(granules);
+    in.frame.give(granules);
+}
+
+std::vector<double> Engine::work() const
+{
+    return inside_->work();
+}
+
 std::vector<Contact> Engine::contacts() const
 {
     auto const& in = *inside_;

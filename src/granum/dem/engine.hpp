@@ -114,8 +114,11 @@ class Engine
     //! granules in it are on one rank; between steps they may be ahead by half a skin. Collective. Rows may move.
     void bring_home(particle::Store& granules);
 
-    //! Cuts space anew so that all ranks have as much to do. Collective. Rows may move.
+    //! Cuts space anew so that all ranks have as much to do, or as it is given. Collective. Rows may move.
     void rebalance(particle::Store& granules);
+    void repartition(particle::Store& granules, par::Partition partition);
+    //! Work of each owned row as rebalance() weighs it: one, and a half for each partner that it touches.
+    std::vector<double> work() const;
 
     //! All contacts that touch, as this rank sees them.
     std::vector<Contact> contacts() const;

@@ -47,6 +47,7 @@ struct Engine::Inside
     void rebuild(particle::Store& granules, std::span<ContactRecord const> saved = {});
     double next_skin(double mean_radius, double largest) const;
     bool strayed() const;
+    std::vector<double> work() const;
     void balance(particle::Store& granules);
     std::vector<ContactRecord> contacts_of(std::vector<std::uint32_t> const& rows,
                                            std::span<ContactRecord const> saved) const;

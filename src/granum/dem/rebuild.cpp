@@ -98,17 +98,22 @@ std::vector<ContactRecord> Engine::Inside::contacts_of(std::vector<std::uint32_t
     return out;
 }
 
+std::vector<double> Engine::Inside::work() const
+{
+    std::vector<double> out(frame.owned, 1.0);
+    pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const&) {
+        for (auto const row : {low, high})
+            if (row < frame.owned) out[row] += 0.5;
+    });
+    return out;
+}
+
 void Engine::Inside::balance(particle::Store& granules)
 {
     frame.give(granules);
-    std::vector<double> work(frame.owned, 1.0);
     std::vector<Vec3> points(frame.owned);
     for (std::size_t row = 0; row < frame.owned; ++row) points[row] = frame.position(row);
-    pairs.for_each_touching([&](std::uint32_t low, std::uint32_t high, History const&) {
-        for (auto const row : {low, high})
-            if (row < frame.owned) work[row] += 0.5;
-    });
-    halo.partition(par::Partition::balanced(halo.partition().space(), points, work, comm));
+    halo.partition(par::Partition::balanced(halo.partition().space(), points, work(), comm));
     ++watch.rebalances;
     unbalanced_rebuilds = 0;
 }

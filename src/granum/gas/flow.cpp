@@ -31,6 +31,10 @@ Settings const& Solver::settings() const
 {
     return inside_->settings;
 }
+Inlet& Solver::inlet(std::size_t number)
+{
+    return inside_->settings.inlets.at(number);
+}
 Field const& Solver::exchanged_temperature() const
 {
     return inside_->exchanged;
@@ -54,41 +58,62 @@ State Solver::start(Field const& voidage, double temperature, double vapour_frac
 {
     Inside const& in = *inside_;
     grid::Grid const& grid = in.grid;
-    double const density = in.equation_of_state(in.settings.pressure, temperature, vapour_fraction);
+    double const density = in.equation_of_state(in.settings.pressure, temperature, vapour_fraction, 0);
     State state{.mass = grid.make_field(),
                 .vapour = grid.make_field(),
+                .tracer = grid.make_field(),
                 .enthalpy = grid.make_field(),
                 .velocity = grid.make_face_field(),
                 .mass_flux = grid.make_face_field(),
+                .earlier_flux = grid.make_face_field(),
                 .pressure = grid.make_field(),
+                .static_pressure = in.settings.pressure,
                 .voidage = voidage,
                 .temperature = grid.make_field(temperature),
                 .vapour_fraction = grid.make_field(vapour_fraction),
-                .density = grid.make_field(density)};
+                .tracer_fraction = grid.make_field(),
+                .density = grid.make_field(density),
+                .temperatures = {temperature, temperature},
+                .vapour_fractions = {vapour_fraction, vapour_fraction}};
     in.refresh({&state.voidage});
+    // Pressures count from the upper end of the domain, or from that at which an outlet lies.
+    Vec3 zero;
+    for (std::size_t d = 0; d < 3; ++d) zero[d] = grid.lines[d].back();
+    if (!in.settings.outlets.empty()) {
+        auto const& at = in.settings.outlets.front().at;
+        if (!at.upper) zero[at.direction] = grid.lines[at.direction].front();
+    }
     grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
         if (!grid.open(c)) return;
         base::require(voidage[c] > 0 && voidage[c] <= 1, "gas: the voidage at the start is {} in cell ({}, {}, {})",
-                      voidage[c], i + grid.shift, j, k);
-        state.mass[c] = voidage[c] * grid.open_volume[c] * density;
-        state.vapour[c] = vapour_fraction * state.mass[c];
-        state.enthalpy[c] = material::enthalpy(temperature, vapour_fraction) * state.mass[c];
+                      voidage[c], i + grid.shift[0], j + grid.shift[1], k + grid.shift[2]);
         Vec3 const x = grid.centre(i, j, k);
         for (std::size_t d = 0; d < 3; ++d)
-            if (!grid.periodic[d])
-                state.pressure[c] +=
-                    density * in.settings.gravity[d] * (x[d] - grid.origin[d] - grid.global[d] * grid.spacing[d]);
+            if (!grid.periodic[d]) state.pressure[c] += density * in.settings.gravity[d] * (x[d] - zero[d]);
+        state.mass[c] = voidage[c] * grid.open_volume[c] * density;
+        if (in.settings.compressibility == Compressibility::full)
+            state.mass[c] *= 1 + state.pressure[c] / in.settings.pressure;
+        state.vapour[c] = vapour_fraction * state.mass[c];
+        state.enthalpy[c] = material::enthalpy(temperature, vapour_fraction) * state.mass[c];
     });
     in.refresh({&state.mass, &state.vapour, &state.enthalpy, &state.pressure});
-    for (std::size_t d = 0; d < 3; ++d)
-        for (FaceRow const& face : in.faces[d]) {
-            Index const q = face.face;
-            state.velocity[d][q] = velocity[d];
-            state.mass_flux[d][q] =
-                in.face_mass(face, d, state.mass) / in.face_volume[d][q] * in.area[d][q] * velocity[d];
+    for (std::size_t d = 0; d < 3; ++d) {
+        for (auto const& run : in.faces[d])
+            for (Index q = run.first; q < run.end; ++q) {
+                double const mass = 0.5 * (state.mass[q] + state.mass[in.before(q, d)]);
+                state.velocity[d][q] = velocity[d];
+                state.mass_flux[d][q] = mass / in.face_volume[d][q] * in.area[d][q] * velocity[d];
+            }
+        for (auto const& face : in.outlets) {
+            if (face.d != d) continue;
+            state.velocity[d][face.face] = velocity[d];
+            state.mass_flux[d][face.face] =
+                state.mass[face.inside] / grid.open_volume[face.inside] * face.area * velocity[d];
         }
-    in.set_plate_velocity(state, state.voidage);
+    }
+    in.set_inlet_velocities(state);
     for (std::size_t d = 0; d < 3; ++d) in.refresh({&state.velocity[d], &state.mass_flux[d]});
+    state.earlier_flux = state.mass_flux;
     return state;
 }
 
@@ -100,14 +125,17 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     Balance balance;
     state.voidage = voidage;
     in.refresh({&state.voidage});
+    for (Index c = 0; c < in.gas_volume.size(); ++c) in.gas_volume[c] = state.voidage[c] * in.grid.open_volume[c];
+    in.static_before = state.static_pressure;
     SharedSources const shared = in.share(sources);
-    in.predict(state, shared, state.voidage, dt);
-    auto const pressure = in.project(state, shared, state.voidage, dt);
+    in.predict(state, shared, dt);
+    auto const pressure = in.project(state, shared, dt, balance);
     balance.pressure_iterations = pressure.iterations;
     balance.pressure_converged = pressure.converged;
-    in.carry_vapour_and_heat(state, sources, dt, balance);
+    in.carry_scalars(state, sources, dt, balance);
     in.derive(state);
-    in.refresh({&state.vapour, &state.enthalpy, &state.temperature, &state.vapour_fraction, &state.density});
+    in.refresh({&state.vapour, &state.tracer, &state.enthalpy, &state.temperature, &state.vapour_fraction,
+                &state.tracer_fraction, &state.density});
     in.check(state);
     return balance;
 }
@@ -117,8 +145,9 @@ double Solver::courant_step(State const& state, double courant) const
     Inside const& in = *inside_;
     double rate = 0;
     for (std::size_t d = 0; d < 3; ++d)
-        for (FaceRow const& face : in.faces[d])
-            rate = std::max(rate, std::abs(state.velocity[d][face.face]) / in.grid.spacing[d]);
+        for (auto const& run : in.faces[d])
+            for (Index q = run.first; q < run.end; ++q)
+                rate = std::max(rate, std::abs(state.velocity[d][q]) * in.per_gap[d][q]);
     rate = in.comm.max(rate);
     return rate > 0 ? courant / rate : std::numeric_limits<double>::infinity();
 }
@@ -129,56 +158,42 @@ namespace
 std::array<Field, 3> cell_means(grid::Grid const& grid, FaceWeights const& weights, FaceField const& values)
 {
     std::array<Field, 3> means{grid.make_field(), grid.make_field(), grid.make_field()};
-    for (std::size_t d = 0; d < 3; ++d) {
-        auto const up = static_cast<Index>(grid.strides()[d]);
+    for (std::size_t d = 0; d < 3; ++d)
         grid::for_each_cell(grid, [&](int, int, int, Index c) {
-            means[d][c] = weights.lower[d][c] * values[d][c] + weights.upper[d][c] * values[d][c + up];
+            means[d][c] = weights.lower[d][c] * values[d][c] + weights.upper[d][c] * values[d][grid.next(c, d)];
         });
-    }
+    grid::refresh(grid, {&means[0], &means[1], &means[2]});
     return means;
 }
 }
 
 std::array<Field, 3> Solver::cell_velocity(State const& state) const
 {
-    auto means = cell_means(inside_->grid, inside_->weights, state.velocity);
-    inside_->refresh({&means[0], &means[1], &means[2]});
-    return means;
+    return cell_means(inside_->grid, inside_->weights, state.velocity);
 }
 
 std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
 {
     Inside const& in = *inside_;
     FaceField slope = in.grid.make_face_field();
-    for (std::size_t d = 0; d < 3; ++d) {
-        double const* u = state.velocity[d].data();
-        for (FaceRow const& face : in.faces[d]) {
-            Index const q = face.face, low = in.before(q, d);
-            double const mu = face.outlet ? in.viscosity(state.temperature[low])
-                                          : in.viscosity(0.5 * (state.temperature[low] + state.temperature[q]));
-            auto const reach = in.viscous_reach(face, d);
-            double drawn = -in.shear[d][q] * u[q];
-            for (std::size_t e = 0; e < 3; ++e) {
-                drawn += reach[2 * e] * (u[in.before(q, e)] - u[q]);
-                // Above a face of the outlet there is nothing, not even a ghost.
-                if (reach[2 * e + 1] != 0) drawn += reach[2 * e + 1] * (u[in.next(q, e)] - u[q]);
-            }
-            slope[d][q] = in.pressure_slope(face, d, state.pressure) - mu * drawn / in.face_volume[d][q];
-        }
-    }
+    for (std::size_t d = 0; d < 3; ++d)
+        for (auto const& run : in.faces[d])
+            for (Index q = run.first; q < run.end; ++q)
+                slope[d][q] =
+                    (state.pressure[q] - state.pressure[in.before(q, d)]) * in.per_gap[d][q] - in.stress[d][q];
     in.refresh({&slope[0], &slope[1], &slope[2]});
-    auto means = cell_means(in.grid, in.weights, slope);
-    in.refresh({&means[0], &means[1], &means[2]});
-    return means;
+    return cell_means(in.grid, in.weights, slope);
 }
 
 Vec3 Solver::momentum(State const& state) const
 {
     Inside const& in = *inside_;
+    Field const& mass = state.last_step > 0 ? in.inertia : state.mass;
     std::array<double, 3> sums{};
     for (std::size_t d = 0; d < 3; ++d)
-        for (FaceRow const& face : in.faces[d])
-            sums[d] += in.face_mass(face, d, state.mass) * state.velocity[d][face.face];
+        for (auto const& run : in.faces[d])
+            for (Index q = run.first; q < run.end; ++q)
+                sums[d] += 0.5 * (mass[q] + mass[in.before(q, d)]) * state.velocity[d][q];
     in.comm.sum(sums);
     return {sums[0], sums[1], sums[2]};
 }

@@ -1,14 +1,15 @@
-// The gas: volume-averaged, low-Mach moist air on the cut cells of a rank.
+// The gas: volume-averaged moist air on the cut cells of a rank.
 //
 // Stored state is what is conserved: mass, vapour and enthalpy of the gas in each cell (kg, kg, J; voidage and cut
-// volume included) and the velocity on the faces. Temperature, mass fraction and density follow from it.
+// volume included) and the velocity on the faces. Temperature, mass fractions and density follow from it.
 //
-// A step is: momentum predictor on the faces (staggered grid, implicit upwind convection and drag); projection onto
-// mass fluxes that bring each cell to the mass its equation of state asks for at the end of the step; vapour and heat
-// carried by these same fluxes. What is stored changes by fluxes and sources only: conservation does not hang on any
-// tolerance. The equations are those of model A: the gas has eps grad p and eps div tau, the granules the rest of both.
+// A step is: momentum predictor on the faces (staggered grid); projection onto mass fluxes that bring each cell to the
+// mass its equation of state asks for at the end of the step; vapour, tracer and heat carried by these same fluxes.
+// What is stored changes by fluxes and sources only: conservation does not hang on any tolerance. Convection is
+// implicit upwind, which any step allows, brought to second order as far as no new extremes appear (limit.hpp).
 #pragma once
 
+#include "granum/gas/settings.hpp"
 #include "granum/grid/grid.hpp"
 #include "granum/par/communicator.hpp"
 #include "granum/solve/pressure.hpp"
@@ -20,39 +21,27 @@ namespace granum::gas
 {
 using grid::FaceField;
 using grid::Field;
-using math::Vec3;
 
-//! Gas that enters through the plate (z = 0), uniform over its open area.
-struct Inlet
+//! Least and largest value that a scalar has had anywhere.
+struct Range
 {
-    double mass_flow = 0;         //!< kg/s of moist gas, whole plate
-    double temperature = 293.15;  //!< K
-    double vapour_fraction = 0;   //!< kg/kg moist gas
-};
-
-struct Settings
-{
-    std::optional<Inlet> inlet;  //!< none: a closed or periodic box
-    bool outlet = true;          //!< open top at `pressure`
-    double pressure = 101325;    //!< Pa
-    //! Pressure drop per velocity of what covers the outlet (filter, duct), Pa s/m. It evens out the outflow and keeps
-    //! heavier gas from falling in; 0 leaves the top open to still air. Pressures count from the mean below the filter.
-    double outlet_resistance = 30;
-    Vec3 gravity{0, 0, -9.81};
-    std::optional<double> density, viscosity, conductivity;            //!< constant instead of moist air
-    double ambient_temperature = 293.15, ambient_vapour_fraction = 0;  //!< of gas drawn in through the outlet
-    double tolerance = 1e-6;  //!< of the pressure solve, relative to its right side
+    double least, most;
 };
 
 //! Conserved and derived state. Every field has ghosts.
 struct State
 {
-    Field mass, vapour, enthalpy;  //!< kg, kg, J per cell; enthalpy zero: dry air and liquid water at 0 degC
-    FaceField velocity;            //!< interstitial, m/s
-    FaceField mass_flux;           //!< through the lower faces in the last step, kg/s
-    Field pressure;                //!< Pa above the outlet's, hydrostatic part included
-    Field voidage;                 //!< of the open volume
-    Field temperature, vapour_fraction, density;  //!< derived: K, kg/kg, kg/m3
+    Field mass, vapour, tracer,
+        enthalpy;                     //!< kg, kg, kg, J per cell; enthalpy zero: dry air and liquid water at 0 degC
+    FaceField velocity;               //!< interstitial, m/s
+    FaceField mass_flux;              //!< through the lower faces in the last step, kg/s
+    FaceField earlier_flux;           //!< in the one before
+    double last_step = 0;             //!< s; 0: none yet
+    Field pressure;                   //!< Pa above Settings::pressure, hydrostatic part included
+    double static_pressure = 101325;  //!< Pa, absolute: what the equation of state of a low-Mach gas takes
+    Field voidage;                    //!< of the open volume
+    Field temperature, vapour_fraction, tracer_fraction, density;  //!< derived: K, kg/kg, kg/kg, kg/m3
+    Range temperatures{}, vapour_fractions{}, tracer_fractions{};  //!< seen so far
 };
 
 //! What others do to the gas during one step; cleared by `clear`. Per cell, not per volume.
@@ -68,11 +57,14 @@ struct Sources
     void clear(grid::Grid const& grid);
 };
 
-//! What passed the boundaries in the last step (this rank's share), for the ledgers. `in` is the plate; `out` is the
-//! top, net of what was drawn in there.
+//! What passed the boundaries in the last step (this rank's share), for the ledgers. `in` is the inlets; `out` is the
+//! outlets, net of what was drawn in there.
 struct Balance
 {
-    double mass_in = 0, mass_out = 0, vapour_in = 0, vapour_out = 0, enthalpy_in = 0, enthalpy_out = 0;  //!< kg, J
+    double mass_in = 0, mass_out = 0, vapour_in = 0, vapour_out = 0, tracer_in = 0, tracer_out = 0;  //!< kg
+    double enthalpy_in = 0, enthalpy_out = 0;                                                        //!< J
+    double wall_heat = 0;      //!< J that the gas gave to walls
+    double pressure_work = 0;  //!< J that a change of the pressure gave to the gas
     int pressure_iterations = 0;
     bool pressure_converged = true;
 };
@@ -90,29 +82,35 @@ class Solver
     Solver(Settings settings, grid::Grid const& grid, par::Communicator const& comm);
     ~Solver();
 
-    //! Uniform state with the given voidage, temperature and vapour fraction; hydrostatic pressure. The inlet's faces
-    //! have the inlet's velocity. Collective.
+    //! Uniform state with the given voidage, temperature and vapour fraction; hydrostatic pressure. The inlets' faces
+    //! have the inlets' velocity. Collective.
     State start(Field const& voidage, double temperature, double vapour_fraction, Vec3 velocity) const;
 
-    //! One step: momentum, pressure, vapour, enthalpy. `voidage` is that at the end of the step; `sources` of owned
-    //! cells are read. Throws base::NumericsError with field, cell and position where a number is not finite or a cell
-    //! runs out of gas. Collective.
+    //! One step: momentum, pressure, vapour, tracer, enthalpy. `voidage` is that at the end of the step; `sources` of
+    //! owned cells are read. Throws base::NumericsError with field, cell and position where a number is not finite or a
+    //! cell runs out of gas. Collective.
     Balance advance(State& state, Sources const& sources, Field const& voidage, double dt);
 
     //! Step with Courant number `courant` at the largest velocity component, s; infinite for gas at rest. Collective.
     double courant_step(State const& state, double courant) const;
 
-    //! grad p - div tau of the total pressure, Pa/m, and velocity, m/s: means of the cell's faces by FaceWeights,
-    //! ghosts filled. A granule of volume V takes the force -V (grad p - div tau) beside its drag. Collective.
-    std::array<Field, 3> cell_pressure_gradient(State const& state) const;
-    std::array<Field, 3> cell_velocity(State const& state) const;
+    //! @{ Means of the cell's faces by FaceWeights, ghosts filled. A granule of volume V takes the force
+    //! -V (grad p - div tau) beside its drag in model A, with the stress of the last step. Collective.
+    std::array<Field, 3> cell_pressure_gradient(State const& state) const;  //!< grad p - div tau, Pa/m
+    std::array<Field, 3> cell_velocity(State const& state) const;           //!< m/s
+    //! @}
 
     //! Temperature that the implicit heat term of the last step was taken at, K: the gas received
-    //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by the solver's tolerance only.
+    //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by what convection of second order
+    //! moved.
     Field const& exchanged_temperature() const;
 
-    //! Momentum of the gas on all faces of all ranks, kg m/s. Collective.
+    //! Momentum of the gas on all faces of all ranks, kg m/s, with the mass of the middle of the last step: what the
+    //! forces of all steps of equal length add up to. Collective.
     Vec3 momentum(State const& state) const;
+
+    //! Flow and state of what enters may change from step to step.
+    Inlet& inlet(std::size_t number);
 
     FaceWeights const& weights() const;
     Settings const& settings() const;

@@ -1,8 +1,12 @@
-// What the parts of the gas step share: the open geometry of faces, the matrices, the scratch fields. Private to the
-// room.
+// What the parts of the gas step share: the open geometry of faces, walls, scratch fields. Private to the room.
+//
+// Nodes are cells (for what they hold) or the faces of one direction (for a velocity component). A link lies between a
+// node and the next one below it in a direction, and stands at the index of the upper one.
 #pragma once
 
 #include "granum/gas/flow.hpp"
+#include "granum/gas/limit.hpp"
+#include "granum/grid/halo.hpp"
 #include "granum/solve/pressure.hpp"
 
 #include <array>
@@ -11,21 +15,56 @@
 namespace granum::gas
 {
 using grid::Index;
+using grid::Run;
 
-//! A face whose velocity is solved for. `outlet`: the top of the domain, with the upper half cell missing.
-struct FaceRow
+//! An open face at an end of the domain.
+struct OpenFace
 {
-    Index face;
-    bool outlet;
-    bool on_plate;  //!< its lowest edge lies on an open plate
+    Index face, inside;  //!< inside: the cell that it belongs to
+    std::size_t d;
+    bool upper;
+    std::size_t number;  //!< of the inlet or outlet
+    double area;         //!< m2
+    double half;         //!< from the cell's centre, m
+    double share;        //!< of an inlet: of its flow
 };
 
-//! One row of a seven-point system: centre x - sum of beside x_neighbour = right; `inverse` of centre for the sweeps.
-//! Neighbours by direction: lower, upper.
-struct Row
+//! Where gas of an inlet flows along a face of another direction: what enters there has no velocity along it.
+struct InletEdge
 {
-    double centre, inverse, right;
-    std::array<double, 6> beside;
+    Index face;           //!< of direction d (by which they are sorted)
+    std::size_t e;        //!< direction of the inlet
+    Index first, second;  //!< faces of direction e
+    double sign;          //!< of what enters
+};
+
+//! A piece of wall in a cell, with its normal along e.
+struct WallPiece
+{
+    Index cell;
+    std::size_t e;
+    std::size_t wall;  //!< of Settings::walls
+    double area;       //!< m2
+    double distance;   //!< of the cell's gas from it, m
+    Vec3 position;     //!< m
+};
+
+//! The equation of an outlet's face, which has one neighbour: the face before it.
+struct EndRow
+{
+    Index face, inner;
+    double mobility, coupling, right;
+};
+
+//! The linear system of one set of nodes: centre x = right + sum of coupling times x of the neighbours.
+struct Rows
+{
+    Field inverse, right;           //!< 1 / centre; right side without neighbours
+    Field alone;                    //!< part of the centre without neighbour: what enters at rest
+    std::array<Field, 6> coupling;  //!< lower and upper neighbour by direction
+    std::vector<EndRow> ends;
+    Field partial;  //!< scratch of a sweep
+    explicit Rows(grid::Grid const& grid);
 };
 
 //! Sources with ghosts filled.
@@ -43,8 +82,15 @@ struct Carried
     FaceField flux;         //!< capacity per s through lower faces
     FaceField conductance;  //!< per s and unit of x
     Field source, sink;
-    double at_plate, at_top;  //!< x of what enters there
-    FaceField passed;         //!< result: total flux through lower faces
+    std::vector<double> at_inlets, at_outlets;  //!< x of what enters there
+    FaceField passed;                           //!< result: total flux through lower faces
+};
+
+//! Heat that a wall takes from a cell: conductance (T - outside), in degC.
+struct WallExchange
+{
+    Index cell;
+    double conductance, outside;  //!< W/K, degC
 };
 
 struct Solver::Inside
@@ -55,63 +101,73 @@ struct Solver::Inside
     grid::Grid const& grid;
     par::Communicator const& comm;
 
-    bool plate, top;        //!< gas enters at z = 0; leaves at the upper end
-    double plate_area = 0;  //!< open, of all ranks, m2
-    FaceField area;         //!< open to the gas, m2: ends without inlet or outlet are closed
-    FaceField face_volume;  //!< of the momentum control volumes, m3
-    FaceField shear;        //!< wall area over wall distance in the control volume, m
+    FaceField area;                           //!< open to the gas, m2: ends without inlet or outlet are closed
+    FaceField face_volume;                    //!< of the momentum control volumes, m3; 1 where nothing is solved for
+    FaceField solved;                         //!< 1 for faces between two open cells
+    FaceField per_gap;                        //!< 1 over the distance of the cells' centres, 1/m
+    FaceField low_share;                      //!< weight of the lower cell in the value at a face
+    std::array<FaceField, 3> coupled, reach;  //!< of links: 1 where both faces are there; viscous area over distance, m
     FaceWeights weights;
-    std::array<std::vector<FaceRow>, 3> faces;
-    std::vector<Index> open_cells;  //!< owned, x fastest
+    std::array<std::vector<Run>, 3> faces;  //!< owned faces solved for
+    std::vector<Run> cells;                 //!< owned open cells
+    std::vector<OpenFace> inlets, outlets;  //!< of this rank
+    std::array<std::vector<InletEdge>, 3> inlet_edges;
+    std::vector<WallPiece> wall_pieces;  //!< those of a cell one behind the other
+    std::vector<bool> wall_oblique;      //!< whether the pieces of the cell are projections of one wall
+    std::vector<WallExchange> wall_exchange;
+    std::vector<double> inlet_areas, outlet_areas;  //!< of all ranks, m2
 
     solve::Pressure pressure;
     solve::System system;
-    Field correction;  //!< of pressure, Pa; the next step's first guess
-    Field exchanged;   //!< K
+    Field correction;          //!< of pressure, Pa; the next step's first guess
+    Field exchanged;           //!< K
+    double static_before = 0;  //!< State::static_pressure at the beginning of the step
 
-    std::array<std::vector<Row>, 3> momentum_rows;
-    std::vector<Row> cell_rows;
-    FaceField mobility;  //!< m_f/dt + K_f, kg/s
+    FaceField mobility;                      //!< m_f/dt + K_f + friction, kg/s
+    FaceField stress;                        //!< force of the viscous stress on the faces' volumes per volume, N/m3
+    Field inertia;                           //!< mass of the cells in the middle of the step, kg
+    Field gas_volume;                        //!< eps V, m3
+    Field viscous;                           //!< viscosity of the cells, Pa s
+    FaceField middle_flux;                   //!< mass flux in the middle of the step, kg/s
+    std::array<Field, 3> friction, dragged;  //!< of walls in a cell on a component, kg/s; times the walls' velocity, N
+    FaceField begun;                         //!< velocities at the beginning of the step
+    Rows rows;
+    Limit limit;
     Carried carried;
 
-    std::ptrdiff_t stride(std::size_t d) const { return grid.strides()[d]; }
-    Index next(Index at, std::size_t d) const { return at + static_cast<Index>(grid.strides()[d]); }
-    Index before(Index at, std::size_t d) const { return at - static_cast<Index>(grid.strides()[d]); }
-    void refresh(std::initializer_list<Field*> fields) const;
+    Index next(Index at, std::size_t d) const { return grid.next(at, d); }
+    Index before(Index at, std::size_t d) const { return grid.before(at, d); }
+    void refresh(std::initializer_list<Field*> fields) const { grid::refresh(grid, fields); }
 
     double viscosity(double temperature) const;
-    double equation_of_state(double pressure, double temperature, double vapour_fraction) const;
-    double inlet_flux(Index face) const;  //!< kg/s through a plate face
+    double equation_of_state(double at_pressure, double temperature, double vapour, double tracer) const;
 
-    //! Mass of the momentum control volume, kg.
-    double face_mass(FaceRow const& row, std::size_t d, Field const& mass) const
-    {
-        return 0.5 * (mass[before(row.face, d)] + (row.outlet ? 0 : mass[row.face]));
-    }
-    //! Its gas volume eps V, m3.
-    double face_gas_volume(FaceRow const& row, std::size_t d, Field const& voidage) const
-    {
-        Index const low = before(row.face, d);
-        double const below = voidage[low] * grid.open_volume[low];
-        return 0.5 * (below + (row.outlet ? 0 : voidage[row.face] * grid.open_volume[row.face]));
-    }
-    //! grad p at a face, Pa/m.
-    double pressure_slope(FaceRow const& row, std::size_t d, Field const& p) const
-    {
-        double const low = p[before(row.face, d)];
-        return row.outlet ? -low / (0.5 * grid.spacing[d]) : (p[row.face] - low) / grid.spacing[d];
-    }
-    //! Viscous conductance between a face and its neighbours, without voidage and viscosity, m.
-    std::array<double, 6> viscous_reach(FaceRow const& row, std::size_t d) const;
+    void find_openings();
+    void find_faces();
+    void find_walls();
 
     SharedSources share(Sources const& sources) const;
-    void set_plate_velocity(State& state, Field const& voidage) const;
-    void predict(State& state, SharedSources const& sources, Field const& voidage, double dt);
-    //! Fluxes of the end of the step, and the mass they leave; returns iterations.
-    solve::Outcome project(State& state, SharedSources const& sources, Field const& voidage, double dt);
-    //! Solves for x (first guess in, solution out, ghosts filled) and updates content.
-    void carry(Carried& what, Field& x, double dt);
-    void carry_vapour_and_heat(State& state, Sources const& sources, double dt, Balance& balance);
+    void set_inlet_velocities(State& state) const;
+    //! Takes the velocities on; they are not yet free of sources of mass.
+    void predict(State& state, SharedSources const& sources, double dt);
+    void predict_component(std::size_t d, State& state, SharedSources const& sources, double dt);
+    void make_end_rows(std::size_t d, State const& state, double dt);
+    //! Fluxes of the end of the step, and the mass they leave.
+    solve::Outcome project(State& state, SharedSources const& sources, double dt, Balance& balance);
+    //! Gauss-Seidel sweeps over `rows`, forward and backward, until none changes x by more than `tolerance` of its
+    //! largest value. Ghosts of x are filled. Collective.
+    void sweep(std::vector<Run> const& nodes, Field& x, double tolerance, int most);
+    //! Solves for x (that before the step in, that of the implicit upwind solution out, ghosts filled) and updates
+    //! content, to which convection of second order may have added. Nothing leaves the range of x so far, which the
+    //! upwind solution may have widened.
+    void carry(Carried& what, Field& x, Range& range, double dt);
+    //! Conductances of the links from a property per area and length.
+    void conduct(Field const& property);
+    //! Adds what passed openings in the last carry, times `worth`.
+    void add_passed(double Balance::*in, double Balance::*out, double dt, double worth, Balance& to) const;
+    void add_walls(State const& state, Carried& heat);
+    void add_pressure_work(State const& state, double dt, Carried& heat) const;
+    void carry_scalars(State& state, Sources const& sources, double dt, Balance& balance);
     void derive(State& state) const;
     void check(State const& state) const;
     void check(Sources const& sources) const;

@@ -1,11 +1,17 @@
-// The predictor: momentum of the gas on faces with the old pressure, implicit in convection, viscosity and drag.
+// The predictor: momentum of the gas on faces with the old pressure, implicit in convection, viscosity, drag and wall
+// friction.
 //
 // Control volumes are the halves of the two cells at a face, so their mass fluxes are means of the cells' fluxes and
-// obey the cells' continuity. Convection takes the fluxes of the last step and has continuity subtracted: uniform flow
-// stays uniform whatever the fluxes do. After the sweeps the convected momentum is evaluated once more face by face, so
-// that what leaves one control volume enters the next to round-off.
+// obey the cells' continuity. Convection takes the fluxes of the middle of the step, extrapolated from the last two,
+// and has continuity subtracted: uniform flow stays uniform whatever the fluxes do. The mass that goes with them, that
+// of the middle of the step, makes steps of equal length pass the momentum on without loss. After the sweeps what
+// passes between control volumes is evaluated once more, so that what leaves one enters the next to round-off, and
+// convection is brought to second order (limit.hpp). Viscosity is taken at both ends of the step as far as the step is
+// short against its time.
+//
+// The stress is mu (grad u + grad u^T); its isotropic part belongs to the pressure.
+#include "granum/base/vectorised.hpp"
 #include "granum/gas/inside.hpp"
-#include "granum/material/moist_air.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,137 +20,337 @@ namespace granum::gas
 {
 namespace
 {
-constexpr double sweep_tolerance = 1e-6;  // change of a sweep over the largest speed
+constexpr double sweep_tolerance = 1e-12;  // change of a sweep over the largest speed
 constexpr int most_sweeps = 200;
+constexpr double endless = 1e300;
+constexpr double longest_explicit = 0.7;  // of a link's viscous exchange, over the mass of its smaller node
+constexpr double fastest_extrapolation = 2;
+
+//! What the loops over the faces of one direction read and write. Links at the index of their upper node.
+struct Loop
+{
+    std::ptrdiff_t sd;
+    std::array<std::ptrdiff_t, 3> s;
+    double per_dt, dt, gravity, model_b, warm, reference;
+    double const *inertia, *mass, *gas, *volume, *p, *per_gap, *drag, *push, *below, *above, *source, *friction,
+        *dragged, *viscous, *u, *temperature;
+    std::array<double const*, 3> flux, coupled, reach, velocity, area, per_gap_of;
+    double *mobility, *inverse, *right, *alone, *stress;
+    std::array<double*, 6> coupling;
+    // Once the upwind solution is there:
+    double const* x;
+    std::array<double const*, 3> added;
+    double* exact;
+};
+
+inline double positive(double x)
+{
+    return x > 0 ? x : 0;
 }
 
-void Solver::Inside::set_plate_velocity(State& state, Field const& voidage) const
+//! Viscosity times area over distance of a link, and the share of it that is taken at the beginning of the step.
+struct Viscous
 {
-    if (!plate) return;
-    double const density =
-        equation_of_state(settings.pressure, settings.inlet->temperature, settings.inlet->vapour_fraction);
-    double const flux = settings.inlet->mass_flow / plate_area;
-    for (int j = 0; j < grid.n[1]; ++j)
-        for (int i = 0; i < grid.n[0]; ++i) {
-            Index const c = grid.at(i, j, 0);
-            if (area[2][c] == 0) continue;
-            state.mass_flux[2][c] = inlet_flux(c);
-            state.velocity[2][c] = flux / (density * voidage[c]);
-        }
+    double whole, early;
+};
+inline Viscous viscous_link(Loop const& l, std::size_t e, bool along, Index q)
+{
+    Index const low = q - static_cast<Index>(l.sd), se = static_cast<Index>(l.s[e]);
+    double const mu =
+        along ? l.viscous[low] : 0.25 * (l.viscous[low] + l.viscous[q] + l.viscous[low - se] + l.viscous[q - se]);
+    double const whole = mu * l.reach[e][q];
+    double const here = l.inertia[low] + l.inertia[q], there = l.inertia[low - se] + l.inertia[q - se];
+    double const lighter = 0.5 * (here < there ? here : there);
+    double const fast = l.dt * whole, room = longest_explicit * lighter;
+    return {whole, 0.5 * fast > room ? room / fast : 0.5};
 }
 
-void Solver::Inside::predict(State& state, SharedSources const& sources, Field const& voidage, double dt)
+//! Stress mu du_e/dx_d that a link carries beside mu du_d/dx_e.
+inline double turned(Loop const& l, std::size_t e, bool along, Index q)
 {
-    auto& u = state.velocity;
-    auto const& flux = state.mass_flux;
-    Field viscous = grid.make_field();
+    Index const low = q - static_cast<Index>(l.sd);
+    if (along) return l.viscous[low] * l.reach[e][q] * (l.u[q] - l.u[low]);
+    Index const se = static_cast<Index>(l.s[e]);
+    double const mu = 0.25 * (l.viscous[low] + l.viscous[q] + l.viscous[low - se] + l.viscous[q - se]);
+    double const edge = 0.5 * (l.area[e][low] + l.area[e][q]) * l.coupled[e][q];
+    return mu * edge * l.per_gap[q] * (l.velocity[e][q] - l.velocity[e][low]);
+}
+
+template <std::size_t d>
+inline void assemble_one(Loop const& l, Index q)
+{
+    Index const low = q - static_cast<Index>(l.sd);
+    double const mass = 0.5 * (l.inertia[low] + l.inertia[q]), gas = 0.5 * (l.gas[low] + l.gas[q]);
+    double const volume = l.volume[q], u = l.u[q];
+    double const under_pressure = l.model_b > 0 ? volume : gas, eps = l.model_b > 0 ? 1 : gas / volume;
+    double const drag = l.below[low] * l.drag[low] + l.above[q] * l.drag[q];
+    double const push = l.below[low] * l.push[low] + l.above[q] * l.push[q];
+    double const friction = 0.5 * eps * (l.friction[low] + l.friction[q]);
+    double const dragged = 0.5 * eps * (l.dragged[low] + l.dragged[q]);
+    double const inertia = mass * l.per_dt;
+    double const mobility = inertia + drag + friction;
+    double const slope = (l.p[q] - l.p[low]) * l.per_gap[q];
+    // In model B the gas carries its weight over the whole volume: the granules' buoyancy is its reaction.
+    double weight = 0.5 * (l.mass[low] + l.mass[q]) * l.gravity;
+    weight = l.model_b > 0 ? weight * volume / gas : weight;
+    weight *= 1 - l.warm * (0.5 * (l.temperature[low] + l.temperature[q]) - l.reference);
+
+    double sum = 0, early = 0, stress = 0;
+    auto const link = [&](std::size_t e, Index at, Index beside, bool upper, double* out) {
+        double const through = 0.5 * (l.flux[e][at - static_cast<Index>(l.sd)] + l.flux[e][at]);
+        auto const [whole, share] = viscous_link(l, e, e == d, at);
+        double const enters = positive(upper ? -through : through) * l.coupled[e][at];
+        double const passed = eps * (1 - share) * whole;
+        out[q] = enters + passed;
+        sum += enters + passed;
+        double const at_start = share * whole * (l.u[beside] - u);
+        early += at_start;
+        double const across = turned(l, e, e == d, at);
+        stress += upper ? across : -across;
+    };
+    for (std::size_t e = 0; e < 3; ++e) {
+        Index const se = static_cast<Index>(l.s[e]);
+        link(e, q, q - se, false, l.coupling[2 * e]);
+        link(e, q + se, q + se, true, l.coupling[2 * e + 1]);
+    }
+    double const alone = positive(0.5 * (l.source[low] + l.source[q]));  // enters at rest
+    l.mobility[q] = mobility;
+    l.alone[q] = alone;
+    l.stress[q] = early + stress;
+    l.right[q] = inertia * u + push + weight + dragged - under_pressure * slope + eps * (early + stress);
+    l.inverse[q] = 1 / (mobility + alone + sum);
+}
+
+//! The velocity from what passes the links in the upwind solution, the same on both sides, and what is added to it.
+template <std::size_t d>
+inline void pass_one(Loop const& l, Index q)
+{
+    double const x = l.x[q];
+    double sum = l.right[q] - l.alone[q] * x, late = 0;
+    auto const link = [&](std::size_t e, Index at, Index beside, double const* coupling) {
+        sum += coupling[q] * (l.x[beside] - x);
+        auto const [whole, share] = viscous_link(l, e, e == d, at);
+        late += (1 - share) * whole * (l.x[beside] - x);
+    };
+    for (std::size_t e = 0; e < 3; ++e) {
+        Index const se = static_cast<Index>(l.s[e]);
+        link(e, q, q - se, l.coupling[2 * e]);
+        link(e, q + se, q + se, l.coupling[2 * e + 1]);
+        sum += l.added[e][q] - l.added[e][q + se];
+    }
+    l.stress[q] += late;
+    l.exact[q] = sum / l.mobility[q];
+}
+
+template <std::size_t d>
+inline void assemble_run(Loop const& given, Index first, Index end)
+{
+    Loop const l = given;
+#pragma GCC ivdep
+    for (Index q = first; q < end; ++q) assemble_one<d>(l, q);
+}
+template <std::size_t d>
+inline void pass_run(Loop const& given, Index first, Index end)
+{
+    Loop const l = given;
+#pragma GCC ivdep
+    for (Index q = first; q < end; ++q) pass_one<d>(l, q);
+}
+GRANUM_VECTORISED void assemble_x(Loop const& l, Index first, Index end)
+{
+    assemble_run<0>(l, first, end);
+}
+GRANUM_VECTORISED void assemble_y(Loop const& l, Index first, Index end)
+{
+    assemble_run<1>(l, first, end);
+}
+GRANUM_VECTORISED void assemble_z(Loop const& l, Index first, Index end)
+{
+    assemble_run<2>(l, first, end);
+}
+
+GRANUM_VECTORISED void pass_x(Loop const& l, Index first, Index end)
+{
+    pass_run<0>(l, first, end);
+}
+GRANUM_VECTORISED void pass_y(Loop const& l, Index first, Index end)
+{
+    pass_run<1>(l, first, end);
+}
+GRANUM_VECTORISED void pass_z(Loop const& l, Index first, Index end)
+{
+    pass_run<2>(l, first, end);
+}
+
+//! What convection of second order adds to the upwind fluxes of the lower links: the mean of both nodes at both ends of
+//! the step less what the upwind solution takes.
+GRANUM_VECTORISED void sharpen(Index first, Index end, std::ptrdiff_t sd, std::ptrdiff_t se, bool along,
+                               double const* __restrict flux, double const* __restrict coupled,
+                               double const* __restrict share, double const* __restrict x,
+                               double const* __restrict earlier, double* __restrict added)
+{
+#pragma GCC ivdep
+    for (Index q = first; q < end; ++q) {
+        Index const low = q - static_cast<Index>(se);
+        double const through = 0.5 * (flux[q - static_cast<Index>(sd)] + flux[q]);
+        double const of_low = along ? 0.5 : share[q];
+        double const centred = 0.5 * (of_low * (x[low] + earlier[low]) + (1 - of_low) * (x[q] + earlier[q]));
+        added[q] = through * coupled[q] * (centred - (through > 0 ? x[low] : x[q]));
+    }
+}
+}
+
+void Solver::Inside::set_inlet_velocities(State& state) const
+{
+    for (auto const& face : inlets) {
+        auto const& inlet = settings.inlets[face.number];
+        double const density =
+            equation_of_state(state.static_pressure, inlet.temperature, inlet.vapour_fraction, inlet.tracer_fraction);
+        double const sign = face.upper ? -1 : 1, flux = inlet.mass_flow * face.share;
+        state.mass_flux[face.d][face.face] = sign * flux;
+        state.velocity[face.d][face.face] = sign * flux / (density * state.voidage[face.inside] * face.area);
+    }
+}
+
+void Solver::Inside::predict(State& state, SharedSources const& sources, double dt)
+{
     for (Index c = 0; c < viscous.size(); ++c) viscous[c] = grid.open(c) ? viscosity(state.temperature[c]) : 0;
 
-    std::array<double, 2> outflow{};  // through the outlet: velocity times area, area
-    if (top) {
-        for (FaceRow const& face : faces[2]) {
-            if (!face.outlet) continue;
-            outflow[0] += u[2][face.face] * area[2][face.face];
-            outflow[1] += area[2][face.face];
-        }
-        comm.sum(outflow);
-    }
-    double const mean_outflow = outflow[1] > 0 ? outflow[0] / outflow[1] : 0;
-
-    FaceField constant = grid.make_face_field();  // right side without convection
+    double const ahead = state.last_step > 0 ? 0.5 * std::min(dt / state.last_step, fastest_extrapolation) : 0;
     for (std::size_t d = 0; d < 3; ++d)
-        for (std::size_t r = 0; r < faces[d].size(); ++r) {
-            FaceRow const& face = faces[d][r];
-            Row& row = momentum_rows[d][r];
-            Index const q = face.face, low = before(q, d);
-            double const mass = face_mass(face, d, state.mass), gas = face_gas_volume(face, d, voidage);
-            double const inertia = mass / dt;
-
-            double drag = 0, push = 0;
-            if (face.outlet) {
-                drag = settings.outlet_resistance * area[d][q];
-                push = drag * mean_outflow;
-            } else {
-                double const above = weights.lower[d][q], below = weights.upper[d][low];
-                drag = below * sources.drag_coefficient[low] + above * sources.drag_coefficient[q];
-                push = below * sources.push[d][low] + above * sources.push[d][q];
-            }
-            mobility[d][q] = inertia + drag;
-            constant[d][q] =
-                inertia * u[d][q] + push + mass * settings.gravity[d] - gas * pressure_slope(face, d, state.pressure);
-
-            double const eps = gas / face_volume[d][q];
-            double const mu = face.outlet ? viscous[low] : 0.5 * (viscous[low] + viscous[q]);
-            auto const reach = viscous_reach(face, d);
-            // What flows in, by neighbour.
-            double inflow = std::max(0.0, 0.5 * (sources.mass[low] + (face.outlet ? 0 : sources.mass[q])));
-            row.beside[2 * d] = std::max(0.5 * (flux[d][before(q, d)] + flux[d][q]), 0.0);
-            row.beside[2 * d + 1] = face.outlet ? 0 : std::max(-0.5 * (flux[d][q] + flux[d][next(q, d)]), 0.0);
-            for (std::size_t e = 0; e < 3; ++e) {
-                if (e == d) continue;
-                for (std::size_t side : {0u, 1u}) {
-                    Index const beside = side == 0 ? before(q, e) : next(q, e);
-                    Index const edge = side == 0 ? q : beside;
-                    double const through = 0.5 * (flux[e][before(edge, d)] + (face.outlet ? 0 : flux[e][edge]));
-                    double const in = std::max(side == 0 ? through : -through, 0.0);
-                    bool const solved = face_volume[d][beside] > 0;
-                    row.beside[2 * e + side] = solved ? in : 0;  // else as if its own velocity came in
-                    if (!solved && face.on_plate && e == 2 && side == 0) inflow += in;  // plate gas rises straight
-                }
-            }
-            double sum = 0;
-            for (std::size_t m = 0; m < 6; ++m) sum += row.beside[m] += eps * mu * reach[m];
-            row.right = constant[d][q];
-            // Parts that act on the face alone: at rest at walls, plate gas and sources.
-            double const alone = inflow + eps * mu * shear[d][q];
-            row.centre = mobility[d][q] + alone + sum;
-            row.inverse = 1 / row.centre;
+        for (Index q = 0; q < viscous.size(); ++q)
+            middle_flux[d][q] = state.mass_flux[d][q] + ahead * (state.mass_flux[d][q] - state.earlier_flux[d][q]);
+    inertia = state.mass;
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c) {
+            double leaves = 0;
+            for (std::size_t d = 0; d < 3; ++d) leaves += state.mass_flux[d][next(c, d)] - state.mass_flux[d][c];
+            inertia[c] = std::max(inertia[c] - 0.5 * dt * leaves, 0.5 * inertia[c]);
         }
+    refresh({&inertia});
 
-    std::array<std::ptrdiff_t, 6> offset{};
-    for (std::size_t d = 0; d < 3; ++d) offset[2 * d] = -stride(d), offset[2 * d + 1] = stride(d);
-    auto neighbours = [&](Row const& row, double const* at) {
-        double sum = 0;
-        for (std::size_t m = 0; m < 5; ++m) sum += row.beside[m] * at[offset[m]];
-        // A face of the outlet lies in the uppermost layer: there is nothing above it, not even a ghost.
-        if (row.beside[5] != 0) sum += row.beside[5] * at[offset[5]];
-        return sum;
-    };
-    double scale = 0;  // largest speed of all ranks, from the first sweep
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-        double change = 0, speed = 0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            auto step = [&](std::size_t r) {
-                Row const& row = momentum_rows[d][r];
-                double* at = u[d].data() + faces[d][r].face;
-                double const value = (row.right + neighbours(row, at)) * row.inverse;
-                change = std::max(change, std::abs(value - *at));
-                speed = std::max(speed, std::abs(value));
-                *at = value;
-            };
-            std::size_t const count = faces[d].size();
-            if (sweep % 2 == 0)
-                for (std::size_t r = 0; r < count; ++r) step(r);
-            else
-                for (std::size_t r = count; r-- > 0;) step(r);
-        }
-        refresh({&u[0], &u[1], &u[2]});
-        if (sweep == 0) scale = comm.size() > 1 ? comm.max(speed) : speed;
-        if (comm.size() > 1) change = comm.max(change);
-        if (change <= sweep_tolerance * scale) break;
-    }
-
-    // Once more with the exchange between control volumes taken from the converged values on both sides.
     for (std::size_t d = 0; d < 3; ++d) {
-        Field const& swept = u[d];
-        Field& exact = constant[d];
-        for (std::size_t r = 0; r < faces[d].size(); ++r) {
-            Row const& row = momentum_rows[d][r];
-            Index const q = faces[d][r].face;
-            double const own = row.centre - mobility[d][q];
-            exact[q] = (exact[q] + neighbours(row, swept.data() + q) - own * swept[q]) / mobility[d][q];
+        std::fill(friction[d].begin(), friction[d].end(), 0.0);
+        std::fill(dragged[d].begin(), dragged[d].end(), 0.0);
+    }
+    for (auto const& piece : wall_pieces) {
+        auto const& wall = settings.walls[piece.wall];
+        if (wall.slip) continue;
+        double const holds = viscous[piece.cell] * piece.area / piece.distance;
+        for (std::size_t d = 0; d < 3; ++d) {
+            if (d == piece.e) continue;
+            friction[d][piece.cell] += holds;
+            dragged[d][piece.cell] += holds * wall.velocity[d];
         }
-        for (FaceRow const& face : faces[d]) u[d][face.face] = exact[face.face];
+    }
+    refresh({&friction[0], &friction[1], &friction[2], &dragged[0], &dragged[1], &dragged[2]});
+
+    begun = state.velocity;
+    for (std::size_t d = 0; d < 3; ++d) predict_component(d, state, sources, dt);
+}
+
+void Solver::Inside::predict_component(std::size_t d, State& state, SharedSources const& sources, double dt)
+{
+    Field& x = state.velocity[d];
+    Field const& before_step = begun[d];
+    auto const pointers = [](auto const& fields) {
+        return std::array<double const*, 3>{fields[0].data(), fields[1].data(), fields[2].data()};
+    };
+    Loop loop{.sd = grid.strides[d],
+              .s = grid.strides,
+              .per_dt = 1 / dt,
+              .dt = dt,
+              .gravity = settings.gravity[d],
+              .model_b = settings.model == Model::b ? 1.0 : 0.0,
+              .warm = settings.expansion,
+              .reference = settings.expansion_temperature,
+              .inertia = inertia.data(),
+              .mass = state.mass.data(),
+              .gas = gas_volume.data(),
+              .volume = face_volume[d].data(),
+              .p = state.pressure.data(),
+              .per_gap = per_gap[d].data(),
+              .drag = sources.drag_coefficient.data(),
+              .push = sources.push[d].data(),
+              .below = weights.upper[d].data(),
+              .above = weights.lower[d].data(),
+              .source = sources.mass.data(),
+              .friction = friction[d].data(),
+              .dragged = dragged[d].data(),
+              .viscous = viscous.data(),
+              .u = before_step.data(),
+              .temperature = state.temperature.data(),
+              .flux = pointers(middle_flux),
+              .coupled = pointers(coupled[d]),
+              .reach = pointers(reach[d]),
+              .velocity = pointers(begun),
+              .area = pointers(area),
+              .mobility = mobility[d].data(),
+              .inverse = rows.inverse.data(),
+              .right = rows.right.data(),
+              .alone = rows.alone.data(),
+              .stress = stress[d].data(),
+              .coupling = {},
+              .x = x.data(),
+              .added = pointers(limit.added),
+              .exact = rows.partial.data()};
+    for (std::size_t m = 0; m < 6; ++m) loop.coupling[m] = rows.coupling[m].data();
+    constexpr std::array assemble{assemble_x, assemble_y, assemble_z};
+    for (auto const& run : faces[d]) assemble[d](loop, run.first, run.end);
+    // What an inlet brings along a face has no velocity along it.
+    for (auto const& edge : inlet_edges[d]) {
+        auto const& flux = middle_flux[edge.e];
+        double const enters = positive(edge.sign * 0.5 * (flux[edge.first] + flux[edge.second]));
+        rows.alone[edge.face] += enters;
+        rows.inverse[edge.face] = 1 / (1 / rows.inverse[edge.face] + enters);
+    }
+    make_end_rows(d, state, dt);
+    sweep(faces[d], x, sweep_tolerance, most_sweeps);
+
+    limit.clear();
+    if (settings.second_order) {
+        for (auto const& run : faces[d])
+            for (std::size_t e = 0; e < 3; ++e)
+                sharpen(run.first, run.end, grid.strides[d], grid.strides[e], e == d, middle_flux[e].data(),
+                        coupled[d][e].data(), low_share[e].data(), x.data(), before_step.data(), limit.added[e].data());
+        limit.scale(grid, faces[d], x, before_step, mobility[d], {&coupled[d][0], &coupled[d][1], &coupled[d][2]},
+                    -endless, endless);
+    }
+    constexpr std::array pass{pass_x, pass_y, pass_z};
+    for (auto const& run : faces[d]) pass[d](loop, run.first, run.end);
+    for (auto& end : rows.ends) end.right = (end.right + end.coupling * (x[end.inner] - x[end.face])) / end.mobility;
+    for (auto const& run : faces[d])
+        for (Index q = run.first; q < run.end; ++q) x[q] = rows.partial[q];
+    for (auto const& end : rows.ends) x[end.face] = end.right;
+    refresh({&x});
+}
+
+void Solver::Inside::make_end_rows(std::size_t d, State const& state, double dt)
+{
+    rows.ends.clear();
+    // Mean velocity into each outlet's filter, which evens it out.
+    std::vector<double> through(outlet_areas.size(), 0.0);
+    bool any = false;
+    for (auto const& outlet : settings.outlets) any = any || outlet.at.direction == d;
+    if (!any) return;
+    for (auto const& face : outlets)
+        if (face.d == d) through[face.number] += begun[d][face.face] * face.area;
+    comm.sum(through);
+    for (auto const& face : outlets) {
+        if (face.d != d) continue;
+        auto const& outlet = settings.outlets[face.number];
+        Index const q = face.face, c = face.inside, inner = face.upper ? c : next(c, d);
+        double const volume = 0.5 * grid.open_volume[c], gas = 0.5 * gas_volume[c], eps = gas / volume;
+        double const inertia_here = 0.5 * inertia[c] / dt, filter = outlet.resistance * face.area;
+        double const slope = (face.upper ? 1 : -1) * (outlet.pressure - state.pressure[c]) / face.half;
+        double const reach_in = reach[d][d][face.upper ? q : inner] * viscous[c] * eps;
+        double const from_inside = (face.upper ? 1 : -1) * 0.5 * (middle_flux[d][q] + middle_flux[d][inner]);
+        bool const b = settings.model == Model::b;
+        double const weight = 0.5 * state.mass[c] * settings.gravity[d] * (b ? 1 / eps : 1.0);
+        mobility[d][q] = inertia_here + filter;
+        rows.ends.push_back({q, inner, mobility[d][q], positive(from_inside) + reach_in,
+                             inertia_here * begun[d][q] + filter * through[face.number] / outlet_areas[face.number] +
+                                 weight - (b ? volume : gas) * slope});
     }
 }
 }

@@ -1,8 +1,10 @@
-// Vapour and heat, carried by the fluxes of the projection: implicit first-order upwind and two-point diffusion.
+// Vapour, tracer and heat, carried by the fluxes of the projection: implicit upwind, brought to second order as far as
+// no new extremes appear, and two-point diffusion taken at both ends of the step as far as the step is short for it.
 //
 // Heat is solved in its sensible part, capacity times (T - 0 degC): the part that vapour holds, its evaporation
 // enthalpy at 0 degC, travels with the vapour's own fluxes. The capacity fluxes follow from the fluxes of mass and
 // vapour, diffusion included, so that gas of one temperature keeps it whatever its vapour does.
+#include "granum/base/vectorised.hpp"
 #include "granum/gas/inside.hpp"
 #include "granum/material/moist_air.hpp"
 
@@ -13,139 +15,227 @@ namespace granum::gas
 {
 namespace
 {
-constexpr double sweep_tolerance = 1e-10;  // change of a sweep over the largest value
+constexpr double sweep_tolerance = 1e-12;  // change of a sweep over the largest value
 constexpr int most_sweeps = 500;
+constexpr double longest_explicit = 0.7;  // of a link's diffusion, over the capacity of its smaller cell
+
+struct Loop
+{
+    std::array<std::ptrdiff_t, 3> s;
+    double per_dt, dt;
+    double const *capacity, *content, *source, *sink, *earlier, *x;
+    std::array<double const*, 3> flux, conductance, added;
+    std::array<double*, 6> coupling;
+    std::array<double*, 3> passed;
+    double *inverse, *right;
+};
+
+inline double positive(double x)
+{
+    return x > 0 ? x : 0;
 }
 
-void Solver::Inside::carry(Carried& what, Field& x, double dt)
+//! Share of a link's diffusion that is taken at the beginning of the step.
+inline double early(Loop const& l, std::size_t e, Index q)
 {
-    for (int j = -1; j <= grid.n[1]; ++j)
-        for (int i = -1; i <= grid.n[0]; ++i) {
-            if (plate) x[grid.at(i, j, -1)] = what.at_plate;
-            if (top) x[grid.at(i, j, grid.n[2])] = what.at_top;
-        }
-    for (std::size_t r = 0; r < open_cells.size(); ++r) {
-        Row& row = cell_rows[r];
-        Index const c = open_cells[r];
-        row.centre = what.capacity[c] / dt + what.sink[c];
-        row.right = what.content[c] / dt + what.source[c];
-        for (std::size_t d = 0; d < 3; ++d) {
-            Index const up = next(c, d);
-            double const in = what.flux[d][c], out = what.flux[d][up];
-            row.beside[2 * d] = std::max(in, 0.0) + what.conductance[d][c];
-            row.beside[2 * d + 1] = std::max(-out, 0.0) + what.conductance[d][up];
-            row.centre += std::max(-in, 0.0) + what.conductance[d][c] + std::max(out, 0.0) + what.conductance[d][up];
-        }
-        row.inverse = 1 / row.centre;
-    }
+    double const here = l.capacity[q], there = l.capacity[q - static_cast<Index>(l.s[e])];
+    double const fast = l.dt * l.conductance[e][q], room = longest_explicit * (here < there ? here : there);
+    return 0.5 * fast > room ? room / fast : 0.5;
+}
 
-    std::array<std::ptrdiff_t, 6> offset{};
-    for (std::size_t d = 0; d < 3; ++d) offset[2 * d] = -stride(d), offset[2 * d + 1] = stride(d);
-    double scale = 0;  // largest value of all ranks, from the first sweep
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-        double change = 0, largest = 0;
-        auto step = [&](Row const& row, Index c) {
-            double const* at = x.data() + c;
-            double sum = row.right;
-            for (std::size_t m = 0; m < 6; ++m) sum += row.beside[m] * at[offset[m]];
-            double const value = sum * row.inverse;
-            change = std::max(change, std::abs(value - x[c]));
-            largest = std::max(largest, std::abs(value));
-            x[c] = value;
-        };
-        // Along the rise of the gas first, then back.
-        std::size_t const count = open_cells.size();
-        if (sweep % 2 == 0)
-            for (std::size_t r = 0; r < count; ++r) step(cell_rows[r], open_cells[r]);
-        else
-            for (std::size_t r = count; r-- > 0;) step(cell_rows[r], open_cells[r]);
-        refresh({&x});
-        if (sweep == 0) scale = comm.size() > 1 ? comm.max(largest) : largest;
-        if (comm.size() > 1) change = comm.max(change);
-        if (change <= sweep_tolerance * scale) break;
+GRANUM_VECTORISED void assemble(Loop const& given, Index first, Index end)
+{
+    Loop const l = given;
+#pragma GCC ivdep
+    for (Index c = first; c < end; ++c) {
+        double centre = l.capacity[c] * l.per_dt + l.sink[c];
+        double right = l.content[c] * l.per_dt + l.source[c];
+        for (std::size_t e = 0; e < 3; ++e) {
+            Index const se = static_cast<Index>(l.s[e]), low = c - se, high = c + se;
+            double const in = l.flux[e][c], out = l.flux[e][high];
+            double const below = early(l, e, c), above = early(l, e, high);
+            double const late_below = (1 - below) * l.conductance[e][c];
+            double const late_above = (1 - above) * l.conductance[e][high];
+            l.coupling[2 * e][c] = positive(in) + late_below;
+            l.coupling[2 * e + 1][c] = positive(-out) + late_above;
+            centre += positive(-in) + late_below + positive(out) + late_above;
+            right += below * l.conductance[e][c] * (l.earlier[low] - l.earlier[c]) +
+                     above * l.conductance[e][high] * (l.earlier[high] - l.earlier[c]);
+        }
+        l.inverse[c] = 1 / centre;
+        l.right[c] = right;
+    }
+}
+
+//! Total flux through the lower face of c across e, with `added` from convection of second order.
+inline double passes(Loop const& l, std::size_t e, Index c)
+{
+    Index const low = c - static_cast<Index>(l.s[e]);
+    double const flux = l.flux[e][c], at_start = early(l, e, c);
+    double const fall = (1 - at_start) * (l.x[low] - l.x[c]) + at_start * (l.earlier[low] - l.earlier[c]);
+    return flux * (flux > 0 ? l.x[low] : l.x[c]) + l.conductance[e][c] * fall + l.added[e][c];
+}
+
+GRANUM_VECTORISED void pass(Loop const& given, std::size_t e, Index first, Index end)
+{
+    Loop const l = given;
+    double* const __restrict passed = l.passed[e];
+#pragma GCC ivdep
+    for (Index c = first; c < end; ++c) passed[c] = passes(l, e, c);
+}
+
+GRANUM_VECTORISED void sharpen(Index first, Index end, std::ptrdiff_t se, double const* __restrict flux,
+                               double const* __restrict inner, double const* __restrict share,
+                               double const* __restrict x, double const* __restrict earlier, double* __restrict added)
+{
+#pragma GCC ivdep
+    for (Index c = first; c < end; ++c) {
+        Index const low = c - static_cast<Index>(se);
+        double const centred = 0.5 * (share[c] * (x[low] + earlier[low]) + (1 - share[c]) * (x[c] + earlier[c]));
+        added[c] = flux[c] * inner[c] * (centred - (flux[c] > 0 ? x[low] : x[c]));
+    }
+}
+}
+
+void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
+{
+    // Beyond openings stands what enters there.
+    auto const outside = [&](OpenFace const& face) { return face.upper ? face.face : before(face.face, face.d); };
+    for (auto const& face : inlets) x[outside(face)] = what.at_inlets[face.number];
+    for (auto const& face : outlets) x[outside(face)] = what.at_outlets[face.number];
+    Field const earlier = x;
+
+    Loop loop{.s = grid.strides,
+              .per_dt = 1 / dt,
+              .dt = dt,
+              .capacity = what.capacity.data(),
+              .content = what.content.data(),
+              .source = what.source.data(),
+              .sink = what.sink.data(),
+              .earlier = earlier.data(),
+              .x = x.data(),
+              .flux = {},
+              .conductance = {},
+              .added = {},
+              .coupling = {},
+              .passed = {},
+              .inverse = rows.inverse.data(),
+              .right = rows.right.data()};
+    for (std::size_t e = 0; e < 3; ++e) {
+        loop.flux[e] = what.flux[e].data();
+        loop.conductance[e] = what.conductance[e].data();
+        loop.added[e] = limit.added[e].data();
+        loop.passed[e] = what.passed[e].data();
+    }
+    for (std::size_t m = 0; m < 6; ++m) loop.coupling[m] = rows.coupling[m].data();
+    rows.ends.clear();
+    for (auto const& run : cells) assemble(loop, run.first, run.end);
+    sweep(cells, x, sweep_tolerance, most_sweeps);
+
+    limit.clear();
+    if (settings.second_order) {
+        for (auto const& run : cells)
+            for (std::size_t e = 0; e < 3; ++e)
+                sharpen(run.first, run.end, grid.strides[e], what.flux[e].data(), solved[e].data(), low_share[e].data(),
+                        x.data(), earlier.data(), limit.added[e].data());
+        std::array<double, 2> seen{range.most, -range.least};
+        for (auto const& run : cells)
+            for (Index c = run.first; c < run.end; ++c) seen = {std::max(seen[0], x[c]), std::max(seen[1], -x[c])};
+        comm.max(seen);
+        range = {-seen[1], seen[0]};
+        Field& room = rows.partial;
+        for (auto const& run : cells)
+            for (Index c = run.first; c < run.end; ++c) room[c] = what.capacity[c] / dt;
+        limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]}, range.least, range.most);
     }
 
     // What passed each face at the solution; contents change by that and by nothing else.
-    for (std::size_t d = 0; d < 3; ++d) {
-        auto pass = [&](Index q) {
-            double const low = x[before(q, d)], high = x[q], flux = what.flux[d][q];
-            what.passed[d][q] = flux * (flux > 0 ? low : high) - what.conductance[d][q] * (high - low);
-        };
-        grid::for_each_cell(grid, [&](int, int, int, Index c) { pass(c); });
-        if (d == 2)
-            for (int j = 0; j < grid.n[1]; ++j)
-                for (int i = 0; i < grid.n[0]; ++i) pass(grid.at(i, j, grid.n[2]));
+    for (std::size_t e = 0; e < 3; ++e) {
+        for (auto const& run : cells) pass(loop, e, run.first, run.end);
+        for (auto const* list : {&inlets, &outlets})
+            for (auto const& face : *list)
+                if (face.d == e && face.upper) what.passed[e][face.face] = passes(loop, e, face.face);
     }
     refresh({&what.passed[0], &what.passed[1], &what.passed[2]});
-    grid::for_each_cell(grid, [&](int, int, int, Index c) {
-        if (!grid.open(c)) return;
-        double gain = what.source[c] - what.sink[c] * x[c];
-        for (std::size_t d = 0; d < 3; ++d) gain += what.passed[d][c] - what.passed[d][next(c, d)];
-        what.content[c] += dt * gain;
-    });
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c) {
+            double gain = what.source[c] - what.sink[c] * x[c];
+            for (std::size_t d = 0; d < 3; ++d) gain += what.passed[d][c] - what.passed[d][next(c, d)];
+            what.content[c] += dt * gain;
+        }
 }
 
-void Solver::Inside::carry_vapour_and_heat(State& state, Sources const& sources, double dt, Balance& balance)
+void Solver::Inside::conduct(Field const& property)
+{
+    for (std::size_t d = 0; d < 3; ++d) {
+        auto& conductance = carried.conductance[d];
+        for (auto const& run : faces[d])
+            for (Index q = run.first; q < run.end; ++q)
+                conductance[q] = 0.5 * (property[q] + property[before(q, d)]) * area[d][q] * per_gap[d][q];
+        refresh({&conductance});
+    }
+}
+
+void Solver::Inside::add_passed(double Balance::*in, double Balance::*out, double dt, double worth, Balance& to) const
+{
+    for (auto const& face : inlets) to.*in += dt * worth * carried.passed[face.d][face.face] * (face.upper ? -1 : 1);
+    for (auto const& face : outlets) to.*out += dt * worth * carried.passed[face.d][face.face] * (face.upper ? 1 : -1);
+}
+
+void Solver::Inside::carry_scalars(State& state, Sources const& sources, double dt, Balance& balance)
 {
     using namespace material;
     constexpr double more = heat_capacity_vapour - heat_capacity_air;
     Settings const& set = settings;
     Carried& it = carried;
-    double const inlet_temperature = set.inlet ? set.inlet->temperature : set.ambient_temperature;
-
-    Field density_diffusivity = grid.make_field(), conducting = grid.make_field();
-    for (Index c = 0; c < grid.size(); ++c) {
-        if (!grid.open(c)) continue;
-        density_diffusivity[c] = state.mass[c] / grid.open_volume[c] * diffusivity(state.temperature[c], set.pressure);
-        conducting[c] = state.voidage[c] * (set.conductivity ? *set.conductivity : conductivity(state.temperature[c]));
-    }
-    auto conduct = [&](Field const& property) {
-        for (std::size_t d = 0; d < 3; ++d) {
-            for (FaceRow const& face : faces[d]) {
-                if (face.outlet) continue;
-                double const mean = 0.5 * (property[face.face] + property[before(face.face, d)]);
-                it.conductance[d][face.face] = mean * area[d][face.face] / grid.spacing[d];
-            }
-            refresh({&it.conductance[d]});
-        }
+    for (auto const& face : inlets) balance.mass_in += dt * set.inlets[face.number].mass_flow * face.share;
+    for (auto const& face : outlets)
+        balance.mass_out += dt * state.mass_flux[face.d][face.face] * (face.upper ? 1 : -1);
+    auto const at_openings = [&](auto&& of_inlet, auto&& of_outlet) {
+        it.at_inlets.clear(), it.at_outlets.clear();
+        for (auto const& inlet : set.inlets) it.at_inlets.push_back(of_inlet(inlet));
+        for (auto const& outlet : set.outlets) it.at_outlets.push_back(of_outlet(outlet));
     };
-    auto at_plate = [&](auto&& add) {
-        for (int j = 0; j < grid.n[1]; ++j)
-            for (int i = 0; i < grid.n[0]; ++i) add(grid.at(i, j, 0));
-    };
-    auto at_top = [&](auto&& add) {
-        for (int j = 0; j < grid.n[1]; ++j)
-            for (int i = 0; i < grid.n[0]; ++i) add(grid.at(i, j, grid.n[2]));
-    };
+    Field property = grid.make_field();
 
     // Sensible heat before the vapour changes.
     Field sensible = grid.make_field();
     for (Index c = 0; c < grid.size(); ++c) sensible[c] = state.enthalpy[c] - evaporation_enthalpy_0 * state.vapour[c];
 
-    conduct(density_diffusivity);
-    it.content = state.vapour;
+    std::fill(it.sink.begin(), it.sink.end(), 0.0);
     it.capacity = state.mass;
     it.flux = state.mass_flux;
-    it.source = sources.vapour;
-    std::fill(it.sink.begin(), it.sink.end(), 0.0);
-    it.at_plate = set.inlet ? set.inlet->vapour_fraction : 0;
-    it.at_top = set.ambient_vapour_fraction;
-    carry(it, state.vapour_fraction, dt);
-    state.vapour = it.content;
-    if (plate)
-        at_plate([&](Index q) {
-            balance.mass_in += dt * state.mass_flux[2][q];
-            balance.vapour_in += dt * it.passed[2][q];
-            balance.enthalpy_in += dt * evaporation_enthalpy_0 * it.passed[2][q];
-        });
-    if (top)
-        at_top([&](Index q) {
-            balance.mass_out += dt * state.mass_flux[2][q];
-            balance.vapour_out += dt * it.passed[2][q];
-            balance.enthalpy_out += dt * evaporation_enthalpy_0 * it.passed[2][q];
-        });
+    if (set.tracer) {
+        for (Index c = 0; c < grid.size(); ++c)
+            property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] * set.tracer->diffusivity : 0;
+        conduct(property);
+        it.content = state.tracer;
+        std::fill(it.source.begin(), it.source.end(), 0.0);
+        at_openings([](auto const& in) { return in.tracer_fraction; },
+                    [](auto const& out) { return out.ambient_tracer_fraction; });
+        carry(it, state.tracer_fraction, state.tracer_fractions, dt);
+        state.tracer = it.content;
+        add_passed(&Balance::tracer_in, &Balance::tracer_out, dt, 1, balance);
+    }
 
-    conduct(conducting);
+    for (Index c = 0; c < grid.size(); ++c)
+        property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] *
+                                         set.diffusivity.value_or(diffusivity(state.temperature[c], set.pressure))
+                                   : 0;
+    conduct(property);
+    it.content = state.vapour;
+    it.source = sources.vapour;
+    at_openings([](auto const& in) { return in.vapour_fraction; },
+                [](auto const& out) { return out.ambient_vapour_fraction; });
+    carry(it, state.vapour_fraction, state.vapour_fractions, dt);
+    state.vapour = it.content;
+    add_passed(&Balance::vapour_in, &Balance::vapour_out, dt, 1, balance);
+    add_passed(&Balance::enthalpy_in, &Balance::enthalpy_out, dt, evaporation_enthalpy_0, balance);
+
+    for (Index c = 0; c < grid.size(); ++c)
+        property[c] =
+            grid.open(c) ? state.voidage[c] * set.conductivity.value_or(conductivity(state.temperature[c])) : 0;
+    conduct(property);
     for (std::size_t d = 0; d < 3; ++d)
         for (Index q = 0; q < grid.size(); ++q)
             it.flux[d][q] = heat_capacity_air * state.mass_flux[d][q] + more * it.passed[d][q];
@@ -154,27 +244,74 @@ void Solver::Inside::carry_vapour_and_heat(State& state, Sources const& sources,
         it.source[c] = sources.enthalpy[c] - evaporation_enthalpy_0 * sources.vapour[c] + sources.heat_value[c];
         exchanged[c] = state.temperature[c] - math::zero_celsius;
     }
+    refresh({&it.capacity});
     it.content = sensible;
     it.sink = sources.heat_coefficient;
-    it.at_plate = inlet_temperature - math::zero_celsius;
-    it.at_top = set.ambient_temperature - math::zero_celsius;
-    carry(it, exchanged, dt);
-    if (plate) at_plate([&](Index q) { balance.enthalpy_in += dt * it.passed[2][q]; });
-    if (top) at_top([&](Index q) { balance.enthalpy_out += dt * it.passed[2][q]; });
-    grid::for_each_cell(grid, [&](int, int, int, Index c) {
-        if (grid.open(c)) state.enthalpy[c] = it.content[c] + evaporation_enthalpy_0 * state.vapour[c];
-    });
+    add_walls(state, it);
+    add_pressure_work(state, dt, it);
+    at_openings([](auto const& in) { return in.temperature - math::zero_celsius; },
+                [](auto const& out) { return out.ambient_temperature - math::zero_celsius; });
+    Range above_zero{state.temperatures.least - math::zero_celsius, state.temperatures.most - math::zero_celsius};
+    carry(it, exchanged, above_zero, dt);
+    state.temperatures = {above_zero.least + math::zero_celsius, above_zero.most + math::zero_celsius};
+    add_passed(&Balance::enthalpy_in, &Balance::enthalpy_out, dt, 1, balance);
+    for (auto const& exchange : wall_exchange)
+        balance.wall_heat += dt * exchange.conductance * (exchanged[exchange.cell] - exchange.outside);
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c)
+            state.enthalpy[c] = it.content[c] + evaporation_enthalpy_0 * state.vapour[c];
     for (double& value : exchanged) value += math::zero_celsius;
+}
+
+// Walls of a given temperature conduct through the gas between them and the middle of the cell.
+void Solver::Inside::add_walls(State const& state, Carried& heat)
+{
+    wall_exchange.clear();
+    for (std::size_t first = 0; first < wall_pieces.size();) {
+        // The pieces of a cell are the projections of its wall.
+        std::size_t end = first;
+        double sum = 0, squares = 0;
+        for (; end < wall_pieces.size() && wall_pieces[end].cell == wall_pieces[first].cell; ++end)
+            sum += wall_pieces[end].area, squares += wall_pieces[end].area * wall_pieces[end].area;
+        bool const oblique = end - first > 1 && wall_oblique[first];
+        double const share = oblique ? std::sqrt(squares) / sum : 1;
+        for (; first < end; ++first) {
+            auto const& piece = wall_pieces[first];
+            auto const& wall = settings.walls[piece.wall];
+            Index const c = piece.cell;
+            double conductance = share * piece.area * wall.loss;
+            if (wall.temperature)
+                conductance = share * piece.area / piece.distance * state.voidage[c] *
+                              settings.conductivity.value_or(material::conductivity(state.temperature[c]));
+            if (conductance == 0) continue;
+            double const outside = wall.temperature.value_or(wall.outside) - math::zero_celsius;
+            heat.sink[c] += conductance;
+            heat.source[c] += conductance * outside;
+            wall_exchange.push_back({c, conductance, outside});
+        }
+    }
+}
+
+// A change of the pressure does work on the gas; that of flow against its gradient stays with the heat of friction.
+void Solver::Inside::add_pressure_work(State const& state, double dt, Carried& heat) const
+{
+    bool const full = settings.compressibility == Compressibility::full;
+    double const rise = (state.static_pressure - static_before) / dt;
+    if (!full && rise == 0) return;
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c)
+            heat.source[c] += gas_volume[c] * (full ? correction[c] / dt : rise);
 }
 
 void Solver::Inside::derive(State& state) const
 {
-    grid::for_each_cell(grid, [&](int, int, int, Index c) {
-        if (!grid.open(c)) return;
-        double const w = state.vapour[c] / state.mass[c];
-        state.vapour_fraction[c] = w;
-        state.temperature[c] = material::temperature(state.enthalpy[c] / state.mass[c], w);
-        state.density[c] = state.mass[c] / (state.voidage[c] * grid.open_volume[c]);
-    });
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c) {
+            double const w = state.vapour[c] / state.mass[c];
+            state.vapour_fraction[c] = w;
+            state.tracer_fraction[c] = state.tracer[c] / state.mass[c];
+            state.temperature[c] = material::temperature(state.enthalpy[c] / state.mass[c], w);
+            state.density[c] = state.mass[c] / gas_volume[c];
+        }
 }
 }

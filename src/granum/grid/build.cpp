@@ -1,6 +1,7 @@
 #include "granum/grid/build.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/grid/halo.hpp"
 
 #include <algorithm>
 
@@ -9,119 +10,53 @@ namespace granum::grid
 namespace
 {
 constexpr double smallest_open_fraction = 1e-5;
-
-Vec3 spacing_of(geometry::Chamber const& chamber, std::array<int, 3> cells)
-{
-    Vec3 const extent = chamber.upper() - chamber.lower();
-    return {extent.x / cells[0], extent.y / cells[1], extent.z / cells[2]};
 }
 
-//! Open geometry by global index: ends, periodic images and closed slivers are decided here, alike on every rank.
-class Cutter
+Openness openness(geometry::Chamber const& chamber)
 {
-  public:
-    Cutter(geometry::Chamber const& chamber, std::array<int, 3> cells, std::array<bool, 3> periodic)
-        : chamber_(chamber), cells_(cells), periodic_(periodic), spacing_(spacing_of(chamber, cells))
-    {
-    }
-
-    double volume(std::array<int, 3> cell) const
-    {
-        if (!wrap(cell)) return 0;
-        double const open = chamber_.open_volume(corner(cell, 0), corner(cell, 1));
-        return open < smallest_open_fraction * spacing_.x * spacing_.y * spacing_.z ? 0 : open;
-    }
-
-    //! Of the lower face of `cell` in `direction`.
-    double area(int direction, std::array<int, 3> cell) const
-    {
-        auto const d = static_cast<std::size_t>(direction);
-        std::array<int, 3> below = cell;
-        --below[d];
-        bool const at_end = !periodic_[d] && (cell[d] == 0 || cell[d] == cells_[d]);
-        if (at_end) {
-            // Plate and top: open as far as the one cell that has this face.
-            if (direction != 2 || volume(cell[2] == 0 ? cell : below) == 0) return 0;
-        } else if (volume(cell) == 0 || volume(below) == 0) {
-            return 0;
-        }
-        std::array<int, 3> own = cell;
-        for (std::size_t e = 0; e < 3; ++e)
-            if (periodic_[e]) own[e] = (own[e] + cells_[e]) % cells_[e];
-        return chamber_.open_area(direction, corner(own, 0), corner(own, 1));
-    }
-
-  private:
-    //! Maps a periodic image to the cell itself; false beyond an end.
-    bool wrap(std::array<int, 3>& cell) const
-    {
-        for (std::size_t d = 0; d < 3; ++d) {
-            if (periodic_[d]) cell[d] = (cell[d] + cells_[d]) % cells_[d];
-            if (cell[d] < 0 || cell[d] >= cells_[d]) return false;
-        }
-        return true;
-    }
-    Vec3 corner(std::array<int, 3> const& cell, int upper) const
-    {
-        Vec3 const low = chamber_.lower(), high = chamber_.upper();
-        Vec3 x;
-        for (std::size_t d = 0; d < 3; ++d) {
-            int const index = cell[d] + upper;
-            x[d] = index == cells_[d] ? high[d] : low[d] + index * spacing_[d];  // the last face exactly at the end
-        }
-        return x;
-    }
-
-    geometry::Chamber const& chamber_;
-    std::array<int, 3> cells_;
-    std::array<bool, 3> periodic_;
-    Vec3 spacing_;
-};
+    return {.volume = [chamber](Vec3 const& low, Vec3 const& high) { return chamber.open_volume(low, high); },
+            .area = [chamber](std::size_t d, Vec3 const& low,
+                              Vec3 const& high) { return chamber.open_area(static_cast<int>(d), low, high); }};
 }
 
-Grid build(geometry::Chamber const& chamber, std::array<int, 3> cells, std::array<bool, 3> periodic,
-           par::Slabs const& slabs, int rank)
+Grid build(Openness const& space, Lines const& lines, Layout const& layout, par::Communicator const& comm)
 {
-    base::require(std::min({cells[0], cells[1], cells[2]}) > 0,
-                  "gas cells must be at least 1 x 1 x 1, got {} x {} x {}", cells[0], cells[1], cells[2]);
-    base::require(slabs.cells() == cells[0], "{} columns of cells are cut among the ranks, the grid has {}",
-                  slabs.cells(), cells[0]);
+    auto const& box = layout.box(comm.rank());
     Grid grid;
-    auto const mine = static_cast<std::size_t>(rank);
-    grid.shift = slabs.first[mine];
-    grid.n = {slabs.first[mine + 1] - slabs.first[mine], cells[1], cells[2]};
-    grid.global = cells;
-    grid.origin = chamber.lower();
-    grid.spacing = spacing_of(chamber, cells);
-    grid.periodic = periodic;
+    static_cast<Shape&>(grid) = Shape({box.size(0), box.size(1), box.size(2)});
+    grid.global = layout.cells;
+    grid.shift = box.lower;
+    grid.periodic = layout.periodic;
+    grid.lines = lines;
+    for (std::size_t d = 0; d < 3; ++d) grid.axes[d] = Axis(lines[d], layout.periodic[d], box.lower[d], box.size(d));
+    grid.halo = std::make_shared<Halo const>(layout, grid, comm.rank(), comm);
     grid.open_volume = grid.make_field();
     grid.open_area = grid.make_face_field();
 
-    Cutter const cutter(chamber, cells, periodic);
-    for (int k = -1; k <= grid.n[2]; ++k)
-        for (int j = -1; j <= grid.n[1]; ++j)
-            for (int i = -1; i <= grid.n[0]; ++i) {
-                std::array<int, 3> const cell{i + grid.shift, j, k};
-                Index const at = grid.at(i, j, k);
-                grid.open_volume[at] = cutter.volume(cell);
-                // Beyond an end only the faces at that end itself can be open.
-                for (std::size_t d = 0; d < 3; ++d) grid.open_area[d][at] = cutter.area(static_cast<int>(d), cell);
-            }
-    return grid;
-}
+    auto const corner = [&](std::array<int, 3> const& cell, int upper) {
+        return Vec3{grid.axes[0].face(cell[0] + upper), grid.axes[1].face(cell[1] + upper),
+                    grid.axes[2].face(cell[2] + upper)};
+    };
+    for_each_cell(grid, [&](int i, int j, int k, Index c) {
+        double const open = space.volume(corner({i, j, k}, 0), corner({i, j, k}, 1));
+        grid.open_volume[c] = open < smallest_open_fraction * grid.volume(i, j, k) ? 0 : open;
+    });
+    refresh(grid, {&grid.open_volume});
 
-std::vector<double> column_weights(geometry::Chamber const& chamber, std::array<int, 3> cells)
-{
-    Vec3 const low = chamber.lower(), high = chamber.upper(), spacing = spacing_of(chamber, cells);
-    std::vector<double> weights;
-    for (int i = 0; i < cells[0]; ++i) {
-        Vec3 const from{low.x + i * spacing.x, low.y, 0}, to{low.x + (i + 1) * spacing.x, high.y, 0};
-        double sum = 0;
-        for (int k = 0; k < cells[2]; ++k)
-            sum +=
-                chamber.open_volume({from.x, from.y, low.z + k * spacing.z}, {to.x, to.y, low.z + (k + 1) * spacing.z});
-        weights.push_back(sum);
+    // A face is open between two open cells; at an end, as far as its one cell is open.
+    for (std::size_t d = 0; d < 3; ++d) {
+        std::array<int, 3> last{grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1};
+        if (grid.at_end(d, true)) ++last[d];
+        for_each_cell(grid, {0, 0, 0}, last, [&](int i, int j, int k, Index c) {
+            std::array<int, 3> const cell{i, j, k};
+            bool const low_end = cell[d] == 0 && grid.at_end(d, false);
+            bool const high_end = cell[d] == grid.n[d];
+            if (!high_end && !grid.open(c)) return;
+            if (!low_end && !grid.open(grid.before(c, d))) return;
+            grid.open_area[d][c] = std::min(space.area(d, corner(cell, 0), corner(cell, 1)), grid.area(d, cell));
+        });
+        refresh(grid, {&grid.open_area[d]});
     }
-    return weights;
+    return grid;
 }
 }

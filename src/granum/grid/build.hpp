@@ -1,18 +1,27 @@
-// Cuts the chamber into the gas cells of a rank.
+// Cuts space into the gas cells of a rank.
 #pragma once
 
 #include "granum/geometry/chamber.hpp"
 #include "granum/grid/grid.hpp"
-#include "granum/par/slabs.hpp"
+#include "granum/par/communicator.hpp"
+
+#include <functional>
 
 namespace granum::grid
 {
-//! The cells of `rank`: the chamber's bounding box cut into `cells`, with open volumes and areas, ghosts included.
-//! Ghosts beyond an end that is not periodic are closed; plate and top faces keep their open area. A cell with less
-//! than 1e-5 of its volume open is closed with its faces. Periodic directions need a box.
-Grid build(geometry::Chamber const& chamber, std::array<int, 3> cells, std::array<bool, 3> periodic,
-           par::Slabs const& slabs, int rank);
+//! What of space is open to gas and granules. The domain is the box that `lines` span.
+struct Openness
+{
+    //! Open volume of the box [low, high], m3.
+    std::function<double(Vec3 const& low, Vec3 const& high)> volume;
+    //! Open area of the rectangle across `direction` at low[direction] of the box [low, high], m2.
+    std::function<double(std::size_t direction, Vec3 const& low, Vec3 const& high)> area;
+};
 
-//! Open volume of each layer of cells across x, m3: the weights for par::Slabs::balanced.
-std::vector<double> column_weights(geometry::Chamber const& chamber, std::array<int, 3> cells);
+Openness openness(geometry::Chamber const& chamber);
+
+//! The cells of `rank`, with open volumes and areas, ghosts included. Ghosts beyond an end that is not periodic are
+//! closed; faces at such an end are as open as the geometry says. A cell with less than 1e-5 of its volume open is
+//! closed with its faces.
+Grid build(Openness const& space, Lines const& lines, Layout const& layout, par::Communicator const& comm);
 }

@@ -1,125 +1,159 @@
 #include "granum/grid/halo.hpp"
 
+#include "granum/base/error.hpp"
+
 #include <algorithm>
-#include <cstring>
 
 namespace granum::grid
 {
 namespace
 {
-enum class Way
+CellBox grown(CellBox box)
 {
-    refresh,
-    fold
-};
+    for (std::size_t d = 0; d < 3; ++d) --box.lower[d], ++box.upper[d];
+    return box;
+}
 
-//! Plane of all cells (ghosts of the other directions included) at index `at` in `direction`.
+CellBox shifted(CellBox box, std::array<int, 3> const& by)
+{
+    for (std::size_t d = 0; d < 3; ++d) box.lower[d] += by[d], box.upper[d] += by[d];
+    return box;
+}
+
+//! Calls visit(cell) for the cells of `of` in `in` that are not in `without`, x fastest.
 template <class Visitor>
-void for_plane(Grid const& grid, int direction, int at, Visitor&& visit)
+void for_common(CellBox const& of, CellBox const& in, CellBox const& without, Visitor&& visit)
 {
-    std::array<int, 3> low{-1, -1, -1}, high{grid.n[0], grid.n[1], grid.n[2]};
-    low[static_cast<std::size_t>(direction)] = high[static_cast<std::size_t>(direction)] = at;
-    for (int k = low[2]; k <= high[2]; ++k)
-        for (int j = low[1]; j <= high[1]; ++j)
-            for (int i = low[0]; i <= high[0]; ++i) visit(grid.at(i, j, k));
+    CellBox both;
+    for (std::size_t d = 0; d < 3; ++d) {
+        both.lower[d] = std::max(of.lower[d], in.lower[d]);
+        both.upper[d] = std::min(of.upper[d], in.upper[d]);
+    }
+    std::array<int, 3> cell;
+    for (cell[2] = both.lower[2]; cell[2] < both.upper[2]; ++cell[2])
+        for (cell[1] = both.lower[1]; cell[1] < both.upper[1]; ++cell[1])
+            for (cell[0] = both.lower[0]; cell[0] < both.upper[0]; ++cell[0])
+                if (!without.has(cell)) visit(cell);
+}
 }
 
-std::vector<double> pack(Grid const& grid, int at, std::span<Field* const> fields)
+Halo::Halo(Layout const& layout, Shape const& shape, int rank, par::Communicator const& comm)
+    : layout_(layout), comm_(comm)
 {
-    std::vector<double> out;
-    out.reserve(fields.size() * static_cast<std::size_t>(grid.n[1] + 2) * static_cast<std::size_t>(grid.n[2] + 2));
-    for (Field const* field : fields) for_plane(grid, 0, at, [&](Index cell) { out.push_back((*field)[cell]); });
-    return out;
-}
-
-void unpack(Grid const& grid, int at, std::span<Field* const> fields, std::vector<std::byte> const& bytes, Way way)
-{
-    if (bytes.empty()) return;
-    std::vector<double> values(bytes.size() / sizeof(double));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    std::size_t next = 0;
-    for (Field* field : fields)
-        for_plane(grid, 0, at, [&](Index cell) {
-            if (way == Way::refresh)
-                (*field)[cell] = values[next++];
-            else
-                (*field)[cell] += values[next++];
-        });
-}
-
-void clear(Grid const& grid, int at, std::span<Field* const> fields)
-{
-    for (Field* field : fields) for_plane(grid, 0, at, [&](Index cell) { (*field)[cell] = 0; });
-}
-
-//! Periodic direction within this rank: ghost -1 is cell n-1, ghost n is cell 0.
-void wrap(Grid const& grid, int direction, std::span<Field* const> fields, Way way)
-{
-    int const n = grid.n[static_cast<std::size_t>(direction)];
-    auto const span = grid.strides()[static_cast<std::size_t>(direction)] * n;
-    for (Field* pointer : fields) {
-        Field& field = *pointer;
-        auto image = [span](Index ghost, bool low) {
-            return static_cast<Index>(static_cast<std::ptrdiff_t>(ghost) + (low ? span : -span));
-        };
-        for (bool low : {true, false})
-            for_plane(grid, direction, low ? -1 : n, [&](Index ghost) {
-                if (way == Way::refresh) {
-                    field[ghost] = field[image(ghost, low)];
+    base::require(shape.size() < (Index{1} << 32), "{} cells on one rank are more than it can name", shape.size());
+    auto const& mine = layout.box(rank);
+    if (mine.cells() == 0) return;
+    auto const local = [&](std::array<int, 3> const& cell) {
+        return static_cast<std::uint32_t>(
+            shape.at(cell[0] - mine.lower[0], cell[1] - mine.lower[1], cell[2] - mine.lower[2]));
+    };
+    // All images of a rank's box over periodic faces, in an order that both sides of an exchange know.
+    std::vector<std::array<int, 3>> images;
+    for (int c = -1; c <= 1; ++c)
+        for (int b = -1; b <= 1; ++b)
+            for (int a = -1; a <= 1; ++a) {
+                std::array<int, 3> const sign{a, b, c};
+                std::array<int, 3> by{};
+                bool there = true;
+                for (std::size_t d = 0; d < 3; ++d) {
+                    there = there && (sign[d] == 0 || layout.periodic[d]);
+                    by[d] = sign[d] * layout.cells[d];
+                }
+                if (there) images.push_back(by);
+            }
+    for (int other = 0; other < layout.ranks(); ++other) {
+        if (layout.box(other).cells() == 0) continue;
+        Side side{other, {}, {}};
+        for (auto const& by : images) {
+            // What of the other's image I see as ghosts.
+            auto const theirs = shifted(layout.reach(other), by);
+            bool const self = other == rank;
+            if (self && by == std::array<int, 3>{}) continue;
+            for_common(grown(mine), theirs, layout.reach(rank), [&](std::array<int, 3> const& cell) {
+                if (self) {
+                    images_.push_back(local(cell));
+                    originals_.push_back(local({cell[0] - by[0], cell[1] - by[1], cell[2] - by[2]}));
                 } else {
-                    field[image(ghost, low)] += field[ghost];
-                    field[ghost] = 0;
+                    side.ghosts.push_back(local(cell));
                 }
             });
+            if (self) continue;
+            // What the other sees of my cells: its cells at +by are mine at -by, in the order in which it asks.
+            for_common(grown(layout.box(other)), shifted(layout.reach(rank), by), layout.reach(other),
+                       [&](std::array<int, 3> const& cell) {
+                           side.mine.push_back(local({cell[0] - by[0], cell[1] - by[1], cell[2] - by[2]}));
+                       });
+        }
+        if (!side.mine.empty() || !side.ghosts.empty()) sides_.push_back(std::move(side));
+    }
+    out_.resize(sides_.size());
+    in_.resize(sides_.size());
+}
+
+void Halo::refresh(std::span<Field* const> fields) const
+{
+    std::vector<par::Message> messages;
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+        auto const& side = sides_[s];
+        auto& out = out_[s];
+        out.clear();
+        for (Field const* field : fields)
+            for (auto const cell : side.mine) out.push_back((*field)[cell]);
+        in_[s].resize(fields.size() * side.ghosts.size());
+        messages.push_back({side.rank, out, in_[s]});
+    }
+    auto const pending = comm_.begin(messages);
+    for (Field* field : fields)
+        for (std::size_t k = 0; k < images_.size(); ++k) (*field)[images_[k]] = (*field)[originals_[k]];
+    comm_.end(pending);
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+        auto from = in_[s].begin();
+        for (Field* field : fields)
+            for (auto const cell : sides_[s].ghosts) (*field)[cell] = *from++;
     }
 }
 
-//! Neighbours in x, or -1 where the domain ends. Ranks are slabs in order.
-std::array<int, 2> neighbours(Grid const& grid, par::Communicator const& comm)
+void Halo::fold(std::span<Field* const> fields) const
 {
-    int const rank = comm.rank(), last = comm.size() - 1;
-    bool const round = grid.periodic[0];
-    return {rank > 0 ? rank - 1 : round ? last : -1, rank < last ? rank + 1 : round ? 0 : -1};
-}
-
-void along_x(Grid const& grid, par::Communicator const& comm, std::span<Field* const> fields, Way way)
-{
-    auto const [left, right] = neighbours(grid, comm);
-    if (comm.size() == 1) {
-        if (left >= 0) wrap(grid, 0, fields, way);
-        return;
+    std::vector<par::Message> messages;
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+        auto const& side = sides_[s];
+        auto& out = out_[s];
+        out.clear();
+        for (Field* field : fields)
+            for (auto const cell : side.ghosts) {
+                out.push_back((*field)[cell]);
+                (*field)[cell] = 0;
+            }
+        in_[s].resize(fields.size() * side.mine.size());
+        messages.push_back({side.rank, out, in_[s]});
     }
-    int const n = grid.n[0];
-    bool const fill = way == Way::refresh;
-    // Refresh sends the outermost owned planes into the neighbours' ghosts; fold sends the ghosts back.
-    auto send = [&](int from_plane, int to, int from, int into_plane) {
-        std::vector<double> out;
-        if (to >= 0) out = pack(grid, from_plane, fields);
-        unpack(grid, into_plane, fields, comm.exchange(std::as_bytes(std::span(out)), to, from), way);
-        if (!fill && to >= 0) clear(grid, from_plane, fields);
-    };
-    if (fill) {
-        send(0, left, right, n);
-        send(n - 1, right, left, -1);
-    } else {
-        send(-1, left, right, n - 1);
-        send(n, right, left, 0);
+    auto const pending = comm_.begin(messages);
+    for (Field* field : fields)
+        for (std::size_t k = 0; k < images_.size(); ++k) {
+            (*field)[originals_[k]] += (*field)[images_[k]];
+            (*field)[images_[k]] = 0;
+        }
+    comm_.end(pending);
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+        auto from = in_[s].begin();
+        for (Field* field : fields)
+            for (auto const cell : sides_[s].mine) (*field)[cell] += *from++;
     }
 }
+
+void refresh(Grid const& grid, std::span<Field* const> fields)
+{
+    grid.halo->refresh(fields);
 }
 
-// Direction after direction, whole planes with the ghosts of the others: so edges and corners come out right.
-void refresh(Grid const& grid, par::Communicator const& comm, std::span<Field* const> fields)
+void refresh(Grid const& grid, std::initializer_list<Field*> fields)
 {
-    along_x(grid, comm, fields, Way::refresh);
-    for (int direction : {1, 2})
-        if (grid.periodic[static_cast<std::size_t>(direction)]) wrap(grid, direction, fields, Way::refresh);
+    grid.halo->refresh(std::span<Field* const>(fields.begin(), fields.size()));
 }
 
-void fold(Grid const& grid, par::Communicator const& comm, std::span<Field* const> fields)
+void fold(Grid const& grid, std::span<Field* const> fields)
 {
-    for (int direction : {2, 1})
-        if (grid.periodic[static_cast<std::size_t>(direction)]) wrap(grid, direction, fields, Way::fold);
-    along_x(grid, comm, fields, Way::fold);
+    grid.halo->fold(fields);
 }
 }

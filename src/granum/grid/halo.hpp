@@ -4,16 +4,43 @@
 #include "granum/grid/grid.hpp"
 #include "granum/par/communicator.hpp"
 
+#include <initializer_list>
 #include <span>
 
 namespace granum::grid
 {
-//! Overwrites the ghosts of each field with the values of the owner, along x by message or periodic copy, along y and z
-//! by periodic copy where the grid is periodic; other ghosts are left as they are. Edges and corners included.
+//! Who sends which cells to whom. Ranks may have any boxes of cells.
+class Halo
+{
+  public:
+    Halo(Layout const& layout, Shape const& shape, int rank, par::Communicator const& comm);
+
+    void refresh(std::span<Field* const> fields) const;
+    void fold(std::span<Field* const> fields) const;
+
+    Layout const& layout() const { return layout_; }
+
+  private:
+    struct Side
+    {
+        int rank;
+        std::vector<std::uint32_t> mine, ghosts;  // cells sent; ghosts filled
+    };
+
+    Layout layout_;
+    par::Communicator comm_;
+    std::vector<Side> sides_;                        // other ranks
+    std::vector<std::uint32_t> images_, originals_;  // ghosts that are cells of this rank, over periodic faces
+    mutable std::vector<std::vector<double>> out_, in_;
+};
+
+//! Overwrites the ghosts of each field with the values of their owners: other ranks, or cells at the other side of a
+//! periodic domain. Ghosts beyond other ends belong to the rank whose cells are there. Edges and corners included.
 //! Collective.
-void refresh(Grid const& grid, par::Communicator const& comm, std::span<Field* const> fields);
+void refresh(Grid const& grid, std::span<Field* const> fields);
+void refresh(Grid const& grid, std::initializer_list<Field*> fields);
 
 //! Adds what lies in ghosts to the cells they are copies of and zeroes the ghosts: the adjoint of `refresh`.
 //! Collective.
-void fold(Grid const& grid, par::Communicator const& comm, std::span<Field* const> fields);
+void fold(Grid const& grid, std::span<Field* const> fields);
 }

@@ -118,17 +118,19 @@ void write_points(std::string const& path, std::span<Vec3 const> positions, std:
     replace_text(path, document("PolyData", body));
 }
 
-void write_cells(std::string const& path, std::array<int, 3> const& cells, Vec3 const& origin, Vec3 const& spacing,
+void write_cells(std::string const& path, std::array<std::vector<double>, 3> const& lines,
                  std::vector<NamedArray> const& arrays)
 {
-    auto const rows =
-        static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]);
-    std::string const extent = fmt::format("0 {} 0 {} 0 {}", cells[0], cells[1], cells[2]);
-    std::string body = fmt::format(
-        "<ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" Spacing=\"{4} {5} {6}\">\n<Piece Extent=\"{0}\">\n",
-        extent, origin.x, origin.y, origin.z, spacing.x, spacing.y, spacing.z);
-    body += section("CellData", arrays, rows) + "</Piece>\n</ImageData>\n";
-    replace_text(path, document("ImageData", body));
+    std::size_t rows = 1;
+    for (auto const& faces : lines) rows *= faces.size() - 1;
+    std::string const extent =
+        fmt::format("0 {} 0 {} 0 {}", lines[0].size() - 1, lines[1].size() - 1, lines[2].size() - 1);
+    std::string body = fmt::format("<RectilinearGrid WholeExtent=\"{0}\">\n<Piece Extent=\"{0}\">\n", extent);
+    body += section("CellData", arrays, rows) + "<Coordinates>\n";
+    constexpr std::array names{"x [m]", "y [m]", "z [m]"};
+    for (std::size_t d = 0; d < 3; ++d) body += data_array(names[d], "Float64", 1, lines[d]);
+    body += "</Coordinates>\n</Piece>\n</RectilinearGrid>\n";
+    replace_text(path, document("RectilinearGrid", body));
 }
 
 Surface chamber_surface(geometry::Chamber const& chamber, int segments)

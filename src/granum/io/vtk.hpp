@@ -36,8 +36,9 @@ struct NamedArray
 //! Throws base::IoError if the file cannot be written, base::NumericsError if an array has another number of rows.
 void write_points(std::string const& path, std::span<Vec3 const> positions, std::vector<NamedArray> const& arrays);
 
-//! A uniform box of cells, x fastest, with one row of each array per cell (.vti). `origin` and `spacing` in m.
-void write_cells(std::string const& path, std::array<int, 3> const& cells, Vec3 const& origin, Vec3 const& spacing,
+//! A box of cells between the faces `lines` (m) along x, y and z, x fastest, with one row of each array per cell
+//! (.vtr).
+void write_cells(std::string const& path, std::array<std::vector<double>, 3> const& lines,
                  std::vector<NamedArray> const& arrays);
 
 //! Polygons that share corners.

@@ -42,6 +42,12 @@ long Communicator::max(long value) const
     return reduce(handle_, value, MPI_LONG, MPI_MAX);
 }
 
+void Communicator::max(std::span<double> values) const
+{
+    if (size_ > 1)
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, handle_);
+}
+
 void Communicator::sum(std::span<double> values) const
 {
     if (size_ > 1)
@@ -92,6 +98,26 @@ std::vector<std::byte> Communicator::exchange(std::span<std::byte const> out, in
     MPI_Sendrecv(out.data(), static_cast<int>(mine), MPI_BYTE, to_rank, 2, in.data(), static_cast<int>(theirs),
                  MPI_BYTE, from_rank, 2, handle_, MPI_STATUS_IGNORE);
     return in;
+}
+
+std::vector<MPI_Request> Communicator::begin(std::span<Message const> messages) const
+{
+    constexpr int tag = 3;
+    std::vector<MPI_Request> pending;
+    for (auto const& message : messages)
+        if (!message.in.empty())
+            MPI_Irecv(message.in.data(), static_cast<int>(message.in.size()), MPI_DOUBLE, message.rank, tag, handle_,
+                      &pending.emplace_back());
+    for (auto const& message : messages)
+        if (!message.out.empty())
+            MPI_Isend(message.out.data(), static_cast<int>(message.out.size()), MPI_DOUBLE, message.rank, tag, handle_,
+                      &pending.emplace_back());
+    return pending;
+}
+
+void Communicator::end(std::vector<MPI_Request> pending) const
+{
+    MPI_Waitall(static_cast<int>(pending.size()), pending.data(), MPI_STATUSES_IGNORE);
 }
 
 std::vector<std::vector<std::byte>> Communicator::deliver(std::vector<std::vector<std::byte>> const& to_each) const

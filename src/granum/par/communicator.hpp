@@ -12,6 +12,14 @@
 
 namespace granum::par
 {
+//! Numbers that go to a rank and those that come from it. Both sides know the lengths.
+struct Message
+{
+    int rank;
+    std::span<double const> out;
+    std::span<double> in;
+};
+
 //! Thin view of an MPI communicator. MPI is initialised by the program, never here.
 class Communicator
 {
@@ -29,6 +37,7 @@ class Communicator
     double min(double value) const;
     long max(long value) const;
     void sum(std::span<double> values) const;          //!< element by element, result on every rank
+    void max(std::span<double> values) const;          //!< element by element, result on every rank
     void sum(std::span<base::ExactSum> values) const;  //!< the same, without rounding
     void barrier() const;
 
@@ -40,6 +49,11 @@ class Communicator
 
     //! Sends `out` to rank `to` while receiving from rank `from`; either may be -1 for nobody. Any length.
     std::vector<std::byte> exchange(std::span<std::byte const> out, int to, int from) const;
+
+    //! @{ Sends and receives messages of numbers, and waits until all are there; what lies between may be other work.
+    std::vector<MPI_Request> begin(std::span<Message const> messages) const;
+    void end(std::vector<MPI_Request> pending) const;
+    //! @}
 
     //! Sends to_each[r] to rank r and returns what each rank sent here. Collective.
     std::vector<std::vector<std::byte>> deliver(std::vector<std::vector<std::byte>> const& to_each) const;

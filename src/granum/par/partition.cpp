@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace granum::par
 {
@@ -17,6 +18,24 @@ Partition::Partition(Space const& space, Slabs const& slabs) : space_(space)
         boxes_[0] = space.box;
     else
         find_boxes(0, space.box);
+}
+
+Partition::Partition(Space const& space, std::vector<double> const& cuts) : space_(space)
+{
+    for (std::size_t k = 0; k + 3 < cuts.size(); k += 4)
+        cuts_.push_back({static_cast<std::size_t>(cuts[k]), cuts[k + 1], static_cast<int>(cuts[k + 2]),
+                         static_cast<int>(cuts[k + 3])});
+    boxes_.assign(cuts_.size() + 1, space.box);
+    find_boxes(cuts_.empty() ? -1 : 0, space.box);
+}
+
+std::vector<double> Partition::cuts() const
+{
+    std::vector<double> out;
+    for (auto const& cut : cuts_)
+        out.insert(out.end(), {static_cast<double>(cut.direction), cut.at, static_cast<double>(cut.first),
+                               static_cast<double>(cut.behind)});
+    return out;
 }
 
 void Partition::find_boxes(int cut, Box const& box)
@@ -90,6 +109,26 @@ struct Partition::Balance
     std::span<Vec3 const> points;
     std::span<double const> work;
     Communicator const& comm;
+    std::array<std::vector<double>, 3> const* faces;
+
+    // The face within a part (not at its ends) that is nearest to a cut; the cut itself where there is none.
+    double on_face(std::size_t direction, Box const& box, double at) const
+    {
+        if (!faces) return at;
+        double best = at, off = std::numeric_limits<double>::infinity();
+        for (double const face : (*faces)[direction])
+            if (face > box.lower[direction] && face < box.upper[direction] && std::abs(face - at) < off)
+                best = face, off = std::abs(face - at);
+        return best;
+    }
+    //! Whether a part can be cut in this direction.
+    bool can_cut(std::size_t direction, Box const& box) const
+    {
+        if (!faces) return true;
+        for (double const face : (*faces)[direction])
+            if (face > box.lower[direction] && face < box.upper[direction]) return true;
+        return false;
+    }
 
     // What the points of all ranks fill of a part: it is cut across its longest side, so that ranks have short borders.
     Box bounds(std::vector<std::uint32_t> const& mine, Box const& box) const
@@ -114,7 +153,9 @@ struct Partition::Balance
         Box const filled = bounds(mine, box);
         std::size_t direction = 0;
         for (std::size_t d = 1; d < 3; ++d)
-            if (filled.upper[d] - filled.lower[d] > 1.0000001 * (filled.upper[direction] - filled.lower[direction]))
+            if (can_cut(d, box) &&
+                (!can_cut(direction, box) ||
+                 filled.upper[d] - filled.lower[d] > 1.0000001 * (filled.upper[direction] - filled.lower[direction])))
                 direction = d;
         int const first_group = ranks / 2;
         double total = 0;
@@ -129,7 +170,7 @@ struct Partition::Balance
                 if (points[k][direction] < middle) below += work[k];
             (comm.sum(below) < goal ? low : high) = middle;
         }
-        double const at = 0.5 * (low + high);
+        double const at = on_face(direction, box, 0.5 * (low + high));
         std::vector<std::uint32_t> first, behind;
         for (auto const k : mine) (points[k][direction] < at ? first : behind).push_back(k);
         int const cut = static_cast<int>(partition.cuts_.size());
@@ -145,14 +186,14 @@ struct Partition::Balance
 };
 
 Partition Partition::balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
-                              Communicator const& comm)
+                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces)
 {
     Partition out;
     out.space_ = space;
     out.boxes_.assign(static_cast<std::size_t>(comm.size()), space.box);
     std::vector<std::uint32_t> all(points.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
-    Balance balance{out, points, work, comm};
+    Balance balance{out, points, work, comm, faces};
     if (comm.size() > 1) out.find_boxes(balance.divide(std::move(all), space.box, 0, comm.size()), space.box);
     return out;
 }

@@ -36,9 +36,14 @@ class Partition
     //! Slabs along x.
     Partition(Space const& space, Slabs const& slabs);
     //! Cuts so that each rank gets about the same sum of `work` of the points (m) that the ranks hold. Work is counted,
-    //! never timed; where there is none yet, by length. Collective.
+    //! never timed; where there is none yet, by length. Given `faces` (m, rising, from end to end of the space, by
+    //! direction), cuts lie on them: on the nearest to where they would be. Collective.
     static Partition balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
-                              Communicator const& comm);
+                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces = nullptr);
+
+    //! As cuts() told of another one of the same space.
+    Partition(Space const& space, std::vector<double> const& cuts);
+    std::vector<double> cuts() const;
 
     int ranks() const { return static_cast<int>(boxes_.size()); }
     Space const& space() const { return space_; }

@@ -168,18 +168,20 @@ gas::Settings gas_settings(Case const& data)
 {
     gas::Settings settings;
     auto const& inlet = data.gas.inlet;
-    if (!data.gas.closed)
-        settings.inlet = gas::Inlet{.mass_flow = dry_inlet_flow(data) * (1 + inlet.humidity),
-                                    .temperature = inlet.temperature,
-                                    .vapour_fraction = material::fraction(inlet.humidity)};
-    settings.outlet = !data.gas.closed;
+    settings.outlets.clear();
+    if (!data.gas.closed) {
+        settings.inlets = {gas::Inlet{.mass_flow = dry_inlet_flow(data) * (1 + inlet.humidity),
+                                      .temperature = inlet.temperature,
+                                      .vapour_fraction = material::fraction(inlet.humidity),
+                                      .at = {.name = "plate"}}};
+        settings.outlets = {gas::Outlet{.ambient_temperature = inlet.temperature,
+                                        .ambient_vapour_fraction = material::fraction(inlet.humidity)}};
+    }
     settings.pressure = data.gas.pressure;
     settings.gravity = data.gravity;
     settings.density = data.gas.density;
     settings.viscosity = data.gas.viscosity;
     settings.conductivity = data.gas.conductivity;
-    settings.ambient_temperature = inlet.temperature;
-    settings.ambient_vapour_fraction = material::fraction(inlet.humidity);
     return settings;
 }
 

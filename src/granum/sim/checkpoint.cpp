@@ -2,8 +2,9 @@
 //
 // Not held is what every step computes anew before it reads it: sources, what granules see, stencils, coverage. Numbers
 // of which every rank has a share are given back share by share on as many ranks; on another number of ranks the first
-// takes their sum. Fields go back slice by slice along x.
+// takes their sum. Fields go back box by box.
 #include "granum/base/error.hpp"
+#include "granum/grid/halo.hpp"
 #include "granum/sim/build.hpp"
 #include "granum/sim/simulation.hpp"
 
@@ -16,19 +17,23 @@ namespace granum::sim
 {
 namespace
 {
-//! A field of the gas on some rank, with the slices along x that it has.
+//! Fields of the gas on some rank, and which cells it has.
 struct GasPart
 {
-    int shift = 0;
-    std::array<int, 3> n{};
+    std::array<int, 3> shift{}, n{};
     std::map<std::string, std::vector<double>> fields;
 };
 
-std::array<std::pair<char const*, grid::Field*>, 14> fields_of(gas::State& gas)
+std::array<std::pair<char const*, grid::Field*>, 19> fields_of(gas::State& gas)
 {
     return {{{"mass", &gas.mass},
              {"vapour", &gas.vapour},
+             {"tracer", &gas.tracer},
              {"enthalpy", &gas.enthalpy},
+             {"earlier_flux_x", &gas.earlier_flux[0]},
+             {"earlier_flux_y", &gas.earlier_flux[1]},
+             {"earlier_flux_z", &gas.earlier_flux[2]},
+             {"tracer_fraction", &gas.tracer_fraction},
              {"velocity_x", &gas.velocity[0]},
              {"velocity_y", &gas.velocity[1]},
              {"velocity_z", &gas.velocity[2]},
@@ -40,6 +45,15 @@ std::array<std::pair<char const*, grid::Field*>, 14> fields_of(gas::State& gas)
              {"temperature", &gas.temperature},
              {"vapour_fraction", &gas.vapour_fraction},
              {"density", &gas.density}}};
+}
+
+//! Calls visit for all numbers of the gas that are no fields.
+template <class Visit>
+void each_number(gas::State& gas, Visit&& visit)
+{
+    visit(gas.last_step), visit(gas.static_pressure);
+    for (auto* range : {&gas.temperatures, &gas.vapour_fractions, &gas.tracer_fractions})
+        visit(range->least), visit(range->most);
 }
 
 //! The saved contacts of `sections` that name a granule of this rank.
@@ -72,6 +86,7 @@ struct Simulation::Saved
     std::vector<double> common, shares;
     std::array<base::ExactSum, 3> energies;  //!< dissipated, elastic, work of walls
     std::vector<GasPart> gas;                //!< by the rank that wrote
+    std::vector<double> gas_numbers, cuts;
     std::vector<double> preconditioner;
 };
 
@@ -101,7 +116,8 @@ void Simulation::each_share(Visit&& visit)
     visit(mine_.solids), visit(mine_.water), visit(mine_.deposited), visit(mine_.walls), visit(mine_.overspray);
     visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
     visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);
-    visit(last_.enthalpy_in), visit(last_.enthalpy_out);
+    visit(last_.tracer_in), visit(last_.tracer_out);
+    visit(last_.enthalpy_in), visit(last_.enthalpy_out), visit(last_.wall_heat), visit(last_.pressure_work);
 }
 
 io::Sections Simulation::save()
@@ -140,7 +156,12 @@ io::Sections Simulation::save()
         out.push_back(io::section_of("events", events_));
     }
     if (has_gas()) {
-        out.push_back(io::section_of("grid", std::vector<int>{grid_.shift, grid_.n[0], grid_.n[1], grid_.n[2]}));
+        out.push_back(io::section_of("grid", std::vector<int>{grid_.shift[0], grid_.shift[1], grid_.shift[2],
+                                                              grid_.n[0], grid_.n[1], grid_.n[2]}));
+        out.push_back(io::section_of("cuts", partition_->cuts()));
+        std::vector<double> of_gas;
+        each_number(gas_, [&](double number) { of_gas.push_back(number); });
+        out.push_back(io::section_of("gas_numbers", of_gas));
         for (auto const& [name, field] : fields_of(gas_))
             out.push_back(io::section_of("gas." + std::string(name), *field));
         out.push_back(io::section_of("gas.correction", solver_->correction()));
@@ -170,13 +191,11 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
         };
         bool const mine = out.same_ranks && writer == rank;
 
-        // On as many ranks each takes its own; otherwise who owns the place or, without gas, an equal share, from which
-        // space is cut.
+        // On as many ranks each takes its own; otherwise an equal share, from which space is cut.
         auto const position = io::values_of<math::Vec3>(find("granules.position"));
         std::vector<std::size_t> rows;
         auto const takes = [&](std::size_t row) {
             if (out.same_ranks) return mine;
-            if (case_.gas.present) return slabs_.owner(position[row].x) == rank;
             return row % static_cast<std::size_t>(comm_.size()) == static_cast<std::size_t>(rank);
         };
         for (std::size_t row = 0; row < position.size(); ++row)
@@ -215,13 +234,14 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
         if (case_.spray.present) {
             append(out.deposit_owners, io::values_of<std::uint64_t>(find("deposits.granule")));
             append(out.deposits, io::values_of<drying::Deposit>(find("deposits")));
-            for (auto const& droplet : io::values_of<spray::Droplet>(find("droplets")))
-                if (out.same_ranks ? mine : slabs_.owner(droplet.position.x) == rank) out.droplets.push_back(droplet);
+            if (mine || !out.same_ranks) append(out.droplets, io::values_of<spray::Droplet>(find("droplets")));
         }
         if (case_.gas.present) {
             auto const place = io::values_of<int>(find("grid"));
-            if (place.size() != 4) throw base::IoError(fmt::format("{}: the grid has no place", from.folder));
-            GasPart part{.shift = place[0], .n = {place[1], place[2], place[3]}, .fields = {}};
+            if (place.size() != 6) throw base::IoError(fmt::format("{}: the grid has no place", from.folder));
+            GasPart part{.shift = {place[0], place[1], place[2]}, .n = {place[3], place[4], place[5]}, .fields = {}};
+            out.gas_numbers = io::values_of<double>(find("gas_numbers"));
+            out.cuts = io::values_of<double>(find("cuts"));
             for (auto const& section : sections)
                 if (section.name.starts_with("gas.")) part.fields[section.name] = io::values_of<double>(section);
             out.gas.push_back(std::move(part));
@@ -235,6 +255,9 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
 void Simulation::take_granules(Saved const& saved)
 {
     granules_ = saved.granules;
+    partition_ = saved.same_ranks && case_.gas.present
+                     ? par::Partition({{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic}, saved.cuts)
+                     : partition(granules_.position.values);
     case_.granules.given.clear();
     fill_feeds();
     case_.granules.parcels = static_cast<long>(saved.common.at(0));
@@ -270,39 +293,45 @@ void Simulation::take_process(Saved const& saved)
     if (!saved.shares.empty()) each_share(take(saved.shares));
     auto& watch = mover_->watch();
     watch.dissipated = saved.energies[0], watch.elastic = saved.energies[1], watch.wall_work = saved.energies[2];
-    droplets_ = saved.droplets;
+    droplets_.clear();
+    for (auto const& droplet : saved.droplets)
+        if (saved.same_ranks || partition_->owner(droplet.position) == comm_.rank()) droplets_.push_back(droplet);
     events_ = saved.events;
     if (!has_gas()) return;
 
-    // Slices along x from whoever owned them; those outside the domain are ghosts of its ends.
+    each_number(gas_, take(saved.gas_numbers));
     auto const gather = [&](std::string const& name) {
         grid::Field field = grid_.make_field();
+        auto const strange = [&] { return base::IoError(fmt::format("a checkpoint whose {} does not fit", name)); };
         if (saved.same_ranks) {
             auto const& mine = saved.gas[static_cast<std::size_t>(comm_.rank())].fields;
             auto const found = mine.find(name);
-            if (found == mine.end() || found->second.size() != field.size())
-                throw base::IoError(fmt::format("a checkpoint whose {} does not fit", name));
+            if (found == mine.end() || found->second.size() != field.size()) throw strange();
             return found->second;
         }
-        for (int i = -1; i <= grid_.n[0]; ++i) {
-            int const global = i + grid_.shift;
-            GasPart const* owner = nullptr;
-            for (auto const& part : saved.gas) {
-                int const low = part.shift == 0 ? -1 : 0;
-                int const high = part.shift + part.n[0] == grid_.global[0] ? part.n[0] : part.n[0] - 1;
-                if (global - part.shift >= low && global - part.shift <= high) owner = &part;
+        // Cells from whoever owned them, with the ghosts beyond those ends of the domain that are not periodic.
+        auto const reaches = [&](std::array<int, 3> const& shift, std::array<int, 3> const& n, std::size_t d) {
+            bool const ends = !grid_.periodic[d];
+            return std::array{shift[d] - (ends && shift[d] == 0 ? 1 : 0),
+                              shift[d] + n[d] + (ends && shift[d] + n[d] == grid_.global[d] ? 1 : 0)};
+        };
+        for (auto const& part : saved.gas) {
+            auto const found = part.fields.find(name);
+            grid::Shape const there(part.n);
+            if (found == part.fields.end() || found->second.size() != there.size()) throw strange();
+            std::array<int, 3> low, high;
+            for (std::size_t d = 0; d < 3; ++d) {
+                auto const mine = reaches(grid_.shift, grid_.n, d), theirs = reaches(part.shift, part.n, d);
+                low[d] = std::max(mine[0], theirs[0]) - grid_.shift[d];
+                high[d] = std::min(mine[1], theirs[1]) - 1 - grid_.shift[d];
             }
-            auto const found = owner ? owner->fields.find(name) : decltype(owner->fields.find(name)){};
-            auto const strange = [&] { return base::IoError(fmt::format("a checkpoint whose {} does not fit", name)); };
-            if (!owner || found == owner->fields.end() || owner->n[1] != grid_.n[1] || owner->n[2] != grid_.n[2])
-                throw strange();
-            grid::Grid there;
-            there.n = owner->n;
-            if (found->second.size() != there.size()) throw strange();
-            for (int k = -1; k <= grid_.n[2]; ++k)
-                for (int j = -1; j <= grid_.n[1]; ++j)
-                    field[grid_.at(i, j, k)] = found->second[there.at(global - owner->shift, j, k)];
+            grid::for_each_cell(grid_, low, high, [&](int i, int j, int k, grid::Index here) {
+                field[here] =
+                    found->second[there.at(i + grid_.shift[0] - part.shift[0], j + grid_.shift[1] - part.shift[1],
+                                           k + grid_.shift[2] - part.shift[2])];
+            });
         }
+        grid::refresh(grid_, {&field});
         return field;
     };
     for (auto const& [name, field] : fields_of(gas_)) *field = gather("gas." + std::string(name));

@@ -83,10 +83,10 @@ std::vector<CellRow> cell_rows(Simulation& simulation)
     auto const velocity = simulation.solver().cell_velocity(gas);
     std::vector<CellRow> rows;
     grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
-        rows.push_back({i + grid.shift,
-                        j,
-                        k,
-                        grid.open_volume[c] / grid.volume(),
+        rows.push_back({i + grid.shift[0],
+                        j + grid.shift[1],
+                        k + grid.shift[2],
+                        grid.open_volume[c] / grid.volume(i, j, k),
                         gas.pressure[c],
                         gas.voidage[c],
                         gas.temperature[c],
@@ -116,24 +116,44 @@ io::NamedArray column(std::string name, Rows const& rows, Pick&& pick, io::Preci
     return out;
 }
 
+//! Cells of equal size across which stretched ones are shown: as narrow as the narrowest, but not too many.
+std::vector<int> even_cells(std::vector<double> const& faces)
+{
+    double const length = faces.back() - faces.front();
+    double narrowest = length;
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i) narrowest = std::min(narrowest, faces[i + 1] - faces[i]);
+    int const many = std::max(static_cast<int>(faces.size()) - 1, 512);
+    std::vector<int> out(static_cast<std::size_t>(std::min(many, static_cast<int>(std::lround(length / narrowest)))));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        double const x = faces.front() + (static_cast<double>(i) + 0.5) * length / static_cast<double>(out.size());
+        out[i] = static_cast<int>(std::upper_bound(faces.begin() + 1, faces.end() - 1, x) - faces.begin()) - 1;
+    }
+    return out;
+}
+
 io::GasSlice slice(std::vector<CellRow> const& cells, grid::Grid const& grid, double y)
 {
-    int const j = std::clamp(static_cast<int>((y - grid.origin.y) / grid.spacing.y), 0, grid.global[1] - 1);
-    io::GasSlice out{.nx = grid.global[0],
-                     .nz = grid.global[2],
-                     .x0 = grid.origin.x,
-                     .z0 = grid.origin.z,
-                     .dx = grid.spacing.x,
-                     .dz = grid.spacing.z};
-    for (auto const& cell : cells) {
-        if (cell.j != j) continue;
-        out.speed.push_back(math::norm(cell.velocity));
-        out.temperature.push_back(cell.temperature);
-        out.humidity.push_back(cell.humidity);
-        out.voidage.push_back(cell.voidage);
-        out.drying_potential.push_back(cell.potential);
-        out.open.push_back(cell.open);
-    }
+    auto const& [xs, ys, zs] = grid.lines;
+    int const j = static_cast<int>(std::upper_bound(ys.begin() + 1, ys.end() - 1, y) - ys.begin()) - 1;
+    auto const columns = even_cells(xs), layers = even_cells(zs);
+    io::GasSlice out{.nx = static_cast<int>(columns.size()),
+                     .nz = static_cast<int>(layers.size()),
+                     .x0 = xs.front(),
+                     .z0 = zs.front(),
+                     .dx = (xs.back() - xs.front()) / static_cast<double>(columns.size()),
+                     .dz = (zs.back() - zs.front()) / static_cast<double>(layers.size())};
+    if (cells.empty()) return out;  // not the rank that writes
+    int const nx = grid.global[0], ny = grid.global[1];
+    for (int const k : layers)
+        for (int const i : columns) {
+            auto const& cell = cells[static_cast<std::size_t>((k * ny + j) * nx + i)];
+            out.speed.push_back(math::norm(cell.velocity));
+            out.temperature.push_back(cell.temperature);
+            out.humidity.push_back(cell.humidity);
+            out.voidage.push_back(cell.voidage);
+            out.drying_potential.push_back(cell.potential);
+            out.open.push_back(cell.open);
+        }
     return out;
 }
 
@@ -376,7 +396,8 @@ void Output::picture()
     }
     if (simulation_.has_gas()) {
         auto const& grid = simulation_.grid();
-        io::write_cells(folder_ + "/" + name("gas", "vti"), grid.global, grid.origin, grid.spacing,
+        std::string const file = name("gas", "vtr");
+        io::write_cells(folder_ + "/" + file, grid.lines,
                         {column("open", cells, [](auto const& r) { return r.open; }),
                          column("velocity [m/s]", cells, [](auto const& r) { return r.velocity; }),
                          column("pressure [Pa]", cells, [](auto const& r) { return r.pressure; }),
@@ -384,7 +405,7 @@ void Output::picture()
                          column("temperature [K]", cells, [](auto const& r) { return r.temperature; }),
                          column("humidity [kg/kg]", cells, [](auto const& r) { return r.humidity; }),
                          column("drying potential", cells, [](auto const& r) { return r.potential; })});
-        gas_.add(time, name("gas", "vti"));
+        gas_.add(time, file);
         snapshot.gas = slice(cells, grid, snapshot.mid_plane);
     }
     io::write_snapshot(folder_ + "/snapshots.h5", snapshot);

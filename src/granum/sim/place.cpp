@@ -167,16 +167,16 @@ void Simulation::place_granules()
     } else {
         batch.parcels = static_cast<long>(list.size());
     }
-    // Without gas each rank begins with an equal share, from which space is cut; the engine sends them to their ranks.
+    // Each rank begins with an equal share, from which space is cut; the engine sends them to their ranks.
     auto const ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
     for (std::size_t k = 0; k < list.size(); ++k) {
         auto& one = list[k];
-        bool const mine = case_.gas.present ? slabs_.owner(one.position.x) == comm_.rank() : k % ranks == rank;
-        if (!mine) continue;
+        if (k % ranks != rank) continue;
         one.density = density_of(case_, one);
         add_granule(granules_, one);
     }
     granules_.owned = granules_.rows();
+    partition_ = partition(granules_.position.values);
 }
 
 void Simulation::settle()

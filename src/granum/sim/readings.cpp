@@ -72,7 +72,7 @@ Readings Simulation::readings() const
             if (!grid_.open(cell)) return;
             coldest = std::min(coldest, gas_.temperature[cell]);
             hottest = std::max(hottest, gas_.temperature[cell]);
-            if (k == 0) {
+            if (k == 0 && grid_.at_end(2, false)) {
                 // Less the weight of the gas column, as a differential pressure gauge beside the bed would read. The
                 // drag of the lowest cell acts on its upper face, so the gas below the centre loses no pressure more;
                 // what the slope does to granules that float there is the plate's to hold up: the solids' share of it.

@@ -34,7 +34,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         mover_ = std::move(hard);
     }
     if (case_.gas.present)
-        cut_for_gas();
+        lines_ = grid::uniform_lines(case_.chamber.lower(), case_.chamber.upper(), case_.gas.cells);
     else
         settings.balance_every = rebuilds_between_balances;
     granule_dt_ = granule_step(case_);
@@ -45,7 +45,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     else
         place_granules();
     if (!hard_) {
-        engine_ = std::make_unique<dem::Engine>(std::move(settings), partition(), comm_);
+        engine_ = std::make_unique<dem::Engine>(std::move(settings), *partition_, comm_);
         mover_ = std::make_unique<SoftMover>(engine_);
     }
     if (case_.spray.present) {
@@ -62,7 +62,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         watch.dissipated = watch.wall_work = {};
     }
     if (case_.gas.present) {
-        grid_ = grid::build(case_.chamber, case_.gas.cells, case_.periodic, slabs_, comm_.rank());
+        grid_ = grid::build(grid::openness(case_.chamber), lines_, grid::layout(*partition_, lines_), comm_);
         make_gas();
         if (!saved) start_gas();
     }
@@ -70,13 +70,14 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         nozzles_ = nozzles(case_);
         flight_ = flight_settings(case_);
         drying_ = std::make_unique<drying::Drying>(drying_settings(case_));
-        around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, slabs_, comm_.rank());
-        double const cell = std::max({grid_.spacing.x, grid_.spacing.y, grid_.spacing.z});
+        around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank());
         for (auto const& nozzle : nozzles_) {
+            double const cell = grid::widest_at(lines_, nozzle.position);
             grid::Field share = grid_.make_field();
             double sum = 0;
             grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
-                share[c] = nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume();
+                share[c] =
+                    nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
                 sum += share[c];
             });
             sum = comm_.sum(sum);
@@ -102,22 +103,27 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     audit();
 }
 
-void Simulation::cut_for_gas()
-{
-    auto const& chamber = case_.chamber;
-    auto const& cells = case_.gas.cells;
-    base::require(comm_.size() <= cells[0], "{} ranks need at least as many cells along x; there are {}", comm_.size(),
-                  cells[0]);
-    slabs_ = par::Slabs::balanced(chamber.lower().x, (chamber.upper().x - chamber.lower().x) / cells[0],
-                                  case_.periodic[0], grid::column_weights(chamber, cells), comm_.size());
-}
-
-par::Partition Simulation::partition() const
+par::Partition Simulation::partition(std::vector<math::Vec3> const& places) const
 {
     par::Space const space{{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic};
-    if (case_.gas.present) return {space, slabs_};
-    std::vector<double> const work(granules_.owned, 1.0);
-    return par::Partition::balanced(space, std::span(granules_.position.values).first(granules_.owned), work, comm_);
+    std::vector<math::Vec3> points = places;
+    std::vector<double> work(points.size(), 1.0);
+    if (!case_.gas.present) return par::Partition::balanced(space, points, work, comm_);
+
+    // A granule is moved many times in a gas step, in which a cell is solved for once.
+    constexpr double work_of_cell = 0.5;
+    auto const& [xs, ys, zs] = lines_;
+    auto const middle = [](std::vector<double> const& faces, std::size_t i) { return 0.5 * (faces[i] + faces[i + 1]); };
+    std::size_t const ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
+    for (std::size_t k = rank; k + 1 < zs.size(); k += ranks)
+        for (std::size_t j = 0; j + 1 < ys.size(); ++j)
+            for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+                math::Vec3 const centre{middle(xs, i), middle(ys, j), middle(zs, k)};
+                if (!case_.chamber.inside(centre)) continue;
+                points.push_back(centre);
+                work.push_back(work_of_cell);
+            }
+    return par::Partition::balanced(space, points, work, comm_, &lines_);
 }
 
 double Simulation::local_drying_potential(double temperature, double vapour_fraction) const
@@ -157,7 +163,6 @@ void Simulation::gas_step(double dt)
     grid::Field voidage;
     {
         auto const scope = stopwatch_.time(base::Stage::exchange);
-        if (comm_.size() > 1) engine_->bring_home(granules_);  // so that who owns a granule follows from its place
         mapping_->locate(granules_);
         voidage = exchange_->voidage(granules_);
         exchange_->share(granules_, gas_, dt, seen_, sources_);
@@ -201,7 +206,7 @@ void Simulation::gas_step(double dt)
         last_ = solver_->advance(gas_, sources_, voidage, dt);
         unconverged_ += !last_.pressure_converged;
         in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
-        in_[2] += last_.enthalpy_in, out_[2] += last_.enthalpy_out;
+        in_[2] += last_.enthalpy_in + last_.pressure_work, out_[2] += last_.enthalpy_out + last_.wall_heat;
     }
     {
         auto const scope = stopwatch_.time(base::Stage::exchange);
@@ -244,7 +249,7 @@ void Simulation::fly_droplets(double dt)
 {
     spray::Liquid const& liquid = flight_.liquid;
     for (auto const& nozzle : nozzles_) {
-        if (slabs_.owner(nozzle.position.x) != comm_.rank()) continue;
+        if (partition_->owner(nozzle.position) != comm_.rank()) continue;
         for (auto& droplet : nozzle.emit(time_, dt, liquid, case_.seed)) {
             mine_.solids += droplet.solids();
             mine_.water += droplet.liquid_water();
@@ -312,7 +317,7 @@ void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)
     for (std::size_t at = 0; at + sizeof(spray::Droplet) <= all.size(); at += sizeof(spray::Droplet)) {
         spray::Droplet droplet;
         std::memcpy(&droplet, all.data() + at, sizeof droplet);
-        if (slabs_.owner(droplet.position.x) == comm_.rank()) droplets_.push_back(droplet);
+        if (partition_->owner(droplet.position) == comm_.rank()) droplets_.push_back(droplet);
     }
 }
 

@@ -23,6 +23,7 @@
 #include "granum/spray/nozzle.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace granum::sim
 {
@@ -107,8 +108,9 @@ class Simulation
     template <class Visit>
     void each_share(Visit&& visit);  //!< scalars of which every rank has its share
 
-    void cut_for_gas();                //!< slabs of cells
-    par::Partition partition() const;  //!< of space among ranks, as the gas or the granules want it. Collective.
+    //! Space among ranks, so that cells and granules at `places`, of which each rank names its share, are as much work
+    //! for each. Collective.
+    par::Partition partition(std::vector<math::Vec3> const& places) const;
     void place_granules();
     void make_gas();
     void start_gas();
@@ -131,7 +133,8 @@ class Simulation
 
     Case case_;
     par::Communicator const& comm_;
-    par::Slabs slabs_;  //!< of cells, where there is gas
+    grid::Lines lines_;  //!< faces of all gas cells
+    std::optional<par::Partition> partition_;
     grid::Grid grid_;
     particle::Store granules_;
     std::unique_ptr<dem::Engine> engine_;  //!< none where granules are hard

@@ -71,7 +71,7 @@ void Simulation::start_gas()
     if (flows && velocity == Vec3{}) {
         double const density = gas.density ? *gas.density : air::density(gas.pressure, temperature, vapour);
         double const area = case_.chamber.volume() / case_.chamber.height();
-        velocity.z = solver_->settings().inlet->mass_flow / (density * area);
+        velocity.z = solver_->settings().inlets.front().mass_flow / (density * area);
     }
     mapping_->locate(granules_);
     gas_ = solver_->start(exchange_->voidage(granules_), temperature, vapour, velocity);
@@ -92,7 +92,7 @@ void Simulation::start_deposits()
 
     auto const film = law::deposit::film(temperature, 1.0, temperature, vapour, pressure);
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
-    double const speed = solver_->settings().inlet->mass_flow / (density * case_.chamber.area(0));
+    double const speed = solver_->settings().inlets.front().mass_flow / (density * case_.chamber.area(0));
     double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
     double const sherwood = std::visit(
         [&](auto const& law) {

@@ -12,21 +12,20 @@ using grid::Index;
 using math::Vec3;
 
 DropletSurroundings::DropletSurroundings(grid::Grid const& grid, Mapping const& mapping,
-                                         std::vector<spray::Nozzle> const& nozzles, par::Slabs const& slabs, int rank)
-    : grid_(grid), mapping_(mapping), nozzles_(nozzles), slabs_(slabs), rank_(rank)
+                                         std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition,
+                                         int rank)
+    : grid_(grid), mapping_(mapping), nozzles_(nozzles), partition_(partition), rank_(rank)
 {
     // The cells carry the jet once its half-width is one and a half cells (physics.md 4.1).
-    double const cell = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    double cell = 0;
+    for (auto const& nozzle : nozzles) cell = std::max(cell, grid::widest_at(grid.lines, nozzle.position));
     jet_reach_ = 1.5 * cell / spray::Nozzle::half_width(1.0);
 }
 
 std::array<int, 3> DropletSurroundings::cell_of(Vec3 const& x) const
 {
     std::array<int, 3> cell;
-    for (std::size_t d = 0; d < 3; ++d) {
-        double const local = (x[d] - grid_.origin[d]) / grid_.spacing[d] - (d == 0 ? grid_.shift : 0);
-        cell[d] = std::clamp(static_cast<int>(std::floor(local)), 0, grid_.n[d] - 1);
-    }
+    for (std::size_t d = 0; d < 3; ++d) cell[d] = std::clamp(grid_.axes[d].cell(x[d]), 0, grid_.n[d] - 1);
     return cell;
 }
 
@@ -87,6 +86,7 @@ void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out
 {
     out.clear();
     auto const [ci, cj, ck] = cell_of(x);
+    Vec3 const size{grid_.axes[0].width(ci), grid_.axes[1].width(cj), grid_.axes[2].width(ck)};
     double solids = 0;
     for (int k = std::max(ck - 1, 0); k <= std::min(ck + 1, grid_.n[2] - 1); ++k)
         for (int j = std::max(cj - 1, 0); j <= std::min(cj + 1, grid_.n[1] - 1); ++j)
@@ -95,11 +95,9 @@ void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out
                 for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
                     std::size_t const row = rows_[r];
                     Vec3 const away = granules_->position[row] - x;
-                    double const near = (1 - std::abs(away.x) / grid_.spacing.x) *
-                                        (1 - std::abs(away.y) / grid_.spacing.y) *
-                                        (1 - std::abs(away.z) / grid_.spacing.z);
-                    if (std::abs(away.x) >= grid_.spacing.x || std::abs(away.y) >= grid_.spacing.y ||
-                        std::abs(away.z) >= grid_.spacing.z)
+                    double const near = (1 - std::abs(away.x) / size.x) * (1 - std::abs(away.y) / size.y) *
+                                        (1 - std::abs(away.z) / size.z);
+                    if (std::abs(away.x) >= size.x || std::abs(away.y) >= size.y || std::abs(away.z) >= size.z)
                         continue;
                     double const d = granules_->diameter[row];
                     out.push_back({row, near * granules_->count[row], granules_->velocity[row], d});

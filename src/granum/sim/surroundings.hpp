@@ -11,7 +11,7 @@ class DropletSurroundings final : public spray::Surroundings
 {
   public:
     DropletSurroundings(grid::Grid const& grid, coupling::Mapping const& mapping,
-                        std::vector<spray::Nozzle> const& nozzles, par::Slabs const& slabs, int rank);
+                        std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition, int rank);
 
     //! Takes the fields and granules of this step; exchange is added to `sources` as rates over `dt`.
     void prepare(gas::Solver const& solver, gas::State const& state, particle::Store const& granules,
@@ -20,7 +20,7 @@ class DropletSurroundings final : public spray::Surroundings
     spray::Seen seen(math::Vec3 const& x) const override;
     void give(math::Vec3 const& x, spray::Given const& given) override;
     void targets(math::Vec3 const& x, std::vector<spray::Target>& out) const override;
-    bool mine(math::Vec3 const& x) const override { return slabs_.owner(x.x) == rank_; }
+    bool mine(math::Vec3 const& x) const override { return partition_.owner(x) == rank_; }
 
   private:
     std::array<int, 3> cell_of(math::Vec3 const& x) const;
@@ -28,7 +28,7 @@ class DropletSurroundings final : public spray::Surroundings
     grid::Grid const& grid_;
     coupling::Mapping const& mapping_;
     std::vector<spray::Nozzle> const& nozzles_;
-    par::Slabs const& slabs_;
+    par::Partition const& partition_;
     int rank_;
     double dt_ = 0;
     std::array<grid::Field, 3> velocity_;

@@ -51,8 +51,9 @@ struct Bed : gas::ChamberWithGas
 
     bool mine(Vec3 const& x) const
     {
-        double const low = grid.origin.x + grid.shift * grid.spacing.x;
-        return x.x >= low && x.x < low + grid.n[0] * grid.spacing.x;
+        for (std::size_t d = 0; d < 3; ++d)
+            if (grid.axes[d].cell(x[d]) < 0 || grid.axes[d].cell(x[d]) >= grid.n[d]) return false;
+        return true;
     }
 
     //! Keeps the parcel on the rank that owns its place.

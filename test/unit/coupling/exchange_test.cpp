@@ -11,7 +11,7 @@ using namespace granum::coupling;
 gas::Settings blown()
 {
     gas::Settings settings;
-    settings.inlet = gas::Inlet{.mass_flow = 0.005, .temperature = 350, .vapour_fraction = 0.008};
+    settings.inlets = {gas::Inlet{.mass_flow = 0.005, .temperature = 350, .vapour_fraction = 0.008}};
     settings.tolerance = 1e-10;
     return settings;
 }
@@ -19,7 +19,7 @@ gas::Settings blown()
 gas::Settings box_of_still_gas()
 {
     gas::Settings settings;
-    settings.outlet = false;
+    settings.outlets = {};
     settings.gravity = {};
     settings.density = 1.2, settings.viscosity = 1.8e-5;
     return settings;

@@ -11,7 +11,8 @@ using namespace granum::coupling;
 //! A number between 0.5 and 1.5 that belongs to a cell of the whole domain, whatever rank it is on.
 double of_cell(Grid const& grid, int i, int j, int k)
 {
-    auto const id = static_cast<std::uint64_t>((i + grid.shift) + 100 * (j + 100 * k));
+    auto const id =
+        static_cast<std::uint64_t>((i + grid.shift[0]) + 100 * ((j + grid.shift[1]) + 100 * (k + grid.shift[2])));
     return 0.5 + base::Random(3, base::Purpose::test, id, 1).uniform();
 }
 double of_granule(particle::Id id)
@@ -105,8 +106,9 @@ void fill_evenly(Bed& bed, std::array<int, 3> cells, double diameter)
     for (int k = 0; k < 2 * cells[2]; ++k)
         for (int j = 0; j < 2 * cells[1]; ++j)
             for (int i = 0; i < 2 * cells[0]; ++i)
-                bed.put(id++, {.position = {(i + 0.5) * 0.5 * bed.grid.spacing.x, (j + 0.5) * 0.5 * bed.grid.spacing.y,
-                                            (k + 0.5) * 0.5 * bed.grid.spacing.z},
+                bed.put(id++, {.position = {(i + 0.5) * 0.5 * bed.grid.axes[0].width(0),
+                                            (j + 0.5) * 0.5 * bed.grid.axes[1].width(0),
+                                            (k + 0.5) * 0.5 * bed.grid.axes[2].width(0)},
                                .diameter = diameter});
 }
 

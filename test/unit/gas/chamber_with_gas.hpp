@@ -4,17 +4,15 @@
 #include "granum/gas/flow.hpp"
 #include "granum/geometry/chamber.hpp"
 #include "granum/grid/build.hpp"
+#include "scene/cells.hpp"
 
 namespace granum::gas
 {
+//! The cells of this rank: all ranks have about as many.
 inline grid::Grid cut(geometry::Chamber const& chamber, std::array<int, 3> cells, std::array<bool, 3> periodic,
                       par::Communicator const& comm)
 {
-    double const width = (chamber.upper().x - chamber.lower().x) / cells[0];
-    return grid::build(
-        chamber, cells, periodic,
-        par::Slabs::balanced(chamber.lower().x, width, periodic[0], grid::column_weights(chamber, cells), comm.size()),
-        comm.rank());
+    return cut_evenly(chamber, grid::uniform_lines(chamber.lower(), chamber.upper(), cells), periodic, comm);
 }
 
 struct ChamberWithGas

@@ -2,6 +2,7 @@
 #include "granum/grid/halo.hpp"
 
 #include "granum/base/random.hpp"
+#include "scene/cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,9 @@ namespace
 {
 grid::Grid periodic_grid(std::array<int, 3> n, std::array<bool, 3> periodic)
 {
-    return {.n = n, .global = n, .periodic = periodic};
+    geometry::Chamber const box{.size = {1, 1, 1}};
+    return cut_evenly(box, grid::uniform_lines(box.lower(), box.upper(), n), periodic,
+                      par::Communicator(MPI_COMM_SELF));
 }
 
 grid::Field random_field(grid::Grid const& grid, std::uint64_t id)
@@ -33,11 +36,10 @@ double dot(grid::Field const& a, grid::Field const& b)
 TEST(Halo, refresh_fills_edges_and_corners)
 {
     auto const grid = periodic_grid({4, 3, 2}, {true, true, true});
-    par::Communicator const comm(MPI_COMM_SELF);
     auto field = grid.make_field(-1);
     grid::for_each_cell(grid, [&](int i, int j, int k, grid::Index c) { field[c] = i + 10 * j + 100 * k; });
     std::array<grid::Field*, 1> const fields{&field};
-    grid::refresh(grid, comm, fields);
+    grid::refresh(grid, fields);
     for (int k = -1; k <= 2; ++k)
         for (int j = -1; j <= 3; ++j)
             for (int i = -1; i <= 4; ++i)
@@ -47,11 +49,10 @@ TEST(Halo, refresh_fills_edges_and_corners)
 TEST(Halo, ghosts_beyond_a_wall_are_left_alone)
 {
     auto const grid = periodic_grid({3, 3, 3}, {false, true, false});
-    par::Communicator const comm(MPI_COMM_SELF);
     auto field = grid.make_field(5);
     std::array<grid::Field*, 1> const fields{&field};
     grid::for_each_cell(grid, [&](int, int, int, grid::Index c) { field[c] = 1; });
-    grid::refresh(grid, comm, fields);
+    grid::refresh(grid, fields);
     EXPECT_EQ(field[grid.at(-1, 1, 1)], 5);
     EXPECT_EQ(field[grid.at(1, 1, 3)], 5);
     EXPECT_EQ(field[grid.at(1, -1, 1)], 1);
@@ -62,12 +63,11 @@ TEST(Halo, fold_is_the_adjoint_of_refresh)
     // <refresh a, b> over all cells equals <a, fold b> over all cells, for any a and b.
     for (std::array<bool, 3> periodic : {std::array{true, true, true}, std::array{false, true, false}}) {
         auto const grid = periodic_grid({4, 3, 5}, periodic);
-        par::Communicator const comm(MPI_COMM_SELF);
         auto const a = random_field(grid, 1), b = random_field(grid, 2);
         auto refreshed = a, folded = b;
         std::array<grid::Field*, 1> const up{&refreshed}, down{&folded};
-        grid::refresh(grid, comm, up);
-        grid::fold(grid, comm, down);
+        grid::refresh(grid, up);
+        grid::fold(grid, down);
         EXPECT_NEAR(dot(refreshed, b), dot(a, folded), 1e-13);
         EXPECT_GT(std::abs(dot(refreshed, b) - dot(a, b)), 1e-3);
     }

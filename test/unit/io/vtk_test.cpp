@@ -122,10 +122,11 @@ TEST(Vtk, an_array_of_the_wrong_length_is_refused)
 TEST(Vtk, cells_state_their_extent_and_keep_their_order)
 {
     scene::TemporaryFolder folder;
-    write_cells(folder / "gas.vti", {2, 1, 3}, {-0.1, 0, 0}, {0.1, 0.2, 0.05},
-                {{.name = "p & q", .values = {0, 1, 2, 3, 4, 5}}});
-    auto const file = read_text(folder / "gas.vti");
-    EXPECT_NE(file.find("WholeExtent=\"0 2 0 1 0 3\" Origin=\"-0.1 0 0\" Spacing=\"0.1 0.2 0.05\""), std::string::npos);
+    std::array<std::vector<double>, 3> const faces{{{-0.1, 0, 0.1}, {0, 0.2}, {0, 0.05, 0.1, 0.2}}};
+    write_cells(folder / "gas.vtr", faces, {{.name = "p & q", .values = {0, 1, 2, 3, 4, 5}}});
+    auto const file = read_text(folder / "gas.vtr");
+    EXPECT_NE(file.find("WholeExtent=\"0 2 0 1 0 3\""), std::string::npos);
+    EXPECT_EQ(numbers_of<double>(array_text(file, "z [m]")), (std::vector<double>{0, 0.05, 0.1, 0.2}));
     EXPECT_EQ(numbers_of<float>(array_text(file, "p &amp; q")), (std::vector<float>{0, 1, 2, 3, 4, 5}));
 }
 

@@ -119,9 +119,9 @@ TEST(Continued, no_member_was_added_to_the_state_without_a_thought)
     EXPECT_EQ(columns, 23u) << "columns are saved by themselves; their number is here for the memory per granule";
     EXPECT_EQ(sizeof(drying::Deposit), 400u);
     EXPECT_EQ(sizeof(spray::Droplet), 112u);
-    EXPECT_EQ(sizeof(gas::State), 14 * sizeof(grid::Field));
+    EXPECT_EQ(sizeof(gas::State), 19 * sizeof(grid::Field) + 8 * sizeof(double));
     EXPECT_EQ(sizeof(sim::SprayTotals), 72u);
-    EXPECT_EQ(sizeof(gas::Balance), 56u);
+    EXPECT_EQ(sizeof(gas::Balance), 88u);
     EXPECT_EQ(sizeof(sim::Sample),
               8 + sizeof(sim::Readings) + sizeof(sim::SprayTotals) + sizeof(sim::BedStatistics) + sizeof(sim::Traffic));
     EXPECT_EQ(sizeof(sim::Traffic), 48u);
