@@ -1,4 +1,4 @@
-// granum list [FAMILY]: the laws that a case may name, from their cards.
+// granum list [FAMILY]: the laws, from their cards, with the key by which a case may name them.
 #include "unknown_name.hpp"
 #include "verbs.hpp"
 
@@ -13,7 +13,7 @@ namespace
 {
 void print_family(sim::LawFamily const& family)
 {
-    fmt::print("{} ({}): {}\n", family.name, family.key, family.title);
+    fmt::print("{} ({}): {}\n", family.name, family.key.empty() ? "not in a case yet" : family.key, family.title);
     for (auto const& card : family.cards) {
         fmt::print("  {:<24} {}\n", card.name, card.title);
         if (!card.source.empty()) fmt::print("  {:<24}   source: {}\n", "", card.source);

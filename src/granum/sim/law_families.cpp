@@ -4,8 +4,13 @@
 #include "granum/law/conduction/all.hpp"
 #include "granum/law/contact/all.hpp"
 #include "granum/law/deposit/all.hpp"
+#include "granum/law/dispersion/all.hpp"
 #include "granum/law/drag/all.hpp"
+#include "granum/law/film/all.hpp"
+#include "granum/law/force/all.hpp"
+#include "granum/law/force/basset.hpp"
 #include "granum/law/heat/all.hpp"
+#include "granum/law/viscosity/all.hpp"
 #include "granum/product/all.hpp"
 
 #include <stdexcept>
@@ -32,11 +37,19 @@ std::vector<LawFamily> const& law_families()
 {
     static std::vector<LawFamily> const all{
         family<law::drag::All>("drag", "gas.drag", "force of the gas on the granules"),
+        family<law::force::VirtualMassLaws>("virtual-mass", "", "gas that a granule moves as it speeds up"),
+        {"history", "", "force of the past of the slip", {law::force::BassetWindow::card}},
+        family<law::force::ShearLiftLaws>("lift-shear", "", "lift of the shear of the gas"),
+        family<law::force::SpinLiftLaws>("lift-spin", "", "lift of the spin of the granules"),
+        family<law::force::TorqueLaws>("torque", "", "torque of the gas on the granules"),
+        family<law::viscosity::All>("viscosity", "", "viscosity from the rate of shear"),
+        family<law::dispersion::All>("dispersion", "", "dispersion of droplets by the turbulence of the gas"),
         family<law::heat::All>("heat-transfer", "gas.heat_transfer", "heat and vapour between granules and gas"),
         family<law::contact::NormalLaws>("contact-normal", "contact.normal", "contact force along the line of centres"),
         family<law::contact::TangentialLaws>("contact-tangential", "contact.tangential", "contact force across it"),
         family<law::contact::RollingLaws>("contact-rolling", "contact.rolling", "resistance to rolling"),
         family<law::conduction::All>("contact-conduction", "contact.conduction", "heat between granules that touch"),
+        family<law::film::All>("film", "", "heat through the gas between granules that nearly touch"),
         family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
         family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
         family<product::All>("porosity", "product.porosity_model",
@@ -48,7 +61,7 @@ std::vector<LawFamily> const& law_families()
 std::vector<std::string> laws_for(std::string const& key)
 {
     for (auto const& family : law_families())
-        if (family.key == key) return family.names();
+        if (!key.empty() && family.key == key) return family.names();
     throw std::out_of_range("no family of laws is chosen by " + key);
 }
 }

@@ -1,4 +1,4 @@
-// Every family of laws with its cards: what `granum list` shows and what a case may name.
+// Every family of laws with its cards: what `granum list` shows and, where the family has a key, what a case may name.
 #pragma once
 
 #include "granum/base/type_list.hpp"
@@ -11,7 +11,7 @@ namespace granum::sim
 struct LawFamily
 {
     std::string name;  //!< as `granum list` takes it
-    std::string key;   //!< of the case that chooses the law
+    std::string key;   //!< of the case that chooses the law; empty where no case chooses it yet
     std::string title;
     std::vector<base::Card> cards;
 

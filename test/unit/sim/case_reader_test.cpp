@@ -224,6 +224,7 @@ TEST(LawFamilies, name_each_law_once_with_its_card)
     }
     EXPECT_NO_THROW(laws_for("gas.drag"));
     EXPECT_THROW(laws_for("gas.drug"), std::out_of_range);
+    EXPECT_THROW(laws_for(""), std::out_of_range) << "families that no case chooses";
 }
 
 // Physics table of collision times: R = 0.3 mm, 1445 kg/m3, E = 1e7 Pa, nu = 0.25 at 1 m/s.
