@@ -32,7 +32,7 @@ function(granum_test NAME)
     add_executable(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/main.cpp)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/test)
     target_compile_definitions(${target} PRIVATE GRANUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                               GRANUM_PROGRAM="$<TARGET_FILE:granum>")
+                               GRANUM_PROGRAM="$<TARGET_FILE:granum>" GRANUM_TEST_NAME="${NAME}")
     foreach(room IN LISTS TEST_ROOMS)
         target_link_libraries(${target} PRIVATE granum_${room})
     endforeach()

@@ -1,12 +1,11 @@
 // The table of verification: each row holds a number of ours against one from elsewhere. A row outside its tolerance
-// fails its test; when the whole program has run, the table is written as Markdown to the file named by
-// GRANUM_VERIFY_TABLE, or to verify.md where the program runs.
+// fails its test. When a whole program has run, its rows are written to the folder named by GRANUM_VERIFY_ROWS, from
+// which tools/verify_table.py makes the page of the manual.
 #pragma once
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -56,28 +55,18 @@ class Table : public ::testing::Environment
     void TearDown() override
     {
         if (GTEST_FLAG_GET(filter) != "*") return;  // part of the rows is no table
-        char const* const named = std::getenv("GRANUM_VERIFY_TABLE");
-        std::ofstream out(named ? named : "verify.md");
-        std::stable_sort(rows_.begin(), rows_.end(), [](Row const& a, Row const& b) { return rank(a) < rank(b); });
-        out << "# Verification\n\nWritten by `./dev test verify`; do not edit. Each row holds a number of this program "
-               "against one that did not\ncome from it: a closed form, an independent small program, a table of "
-               "somebody else. Rows that name a motion go through\nthe step that `granum run` takes, from a case as a "
-               "user would write it. P: the project's test matrix; D, X, H: reference\ncases dem-NN, x-NN, h-NN of "
-               "`test/reference/`. Published: how far other codes are from the same number, as far as that is "
-               "known.\n\n";
-        out << "| id | quantity | reference | ours | difference | tolerance | published | verdict "
-               "|\n|---|---|---:|---:|---:|---:|---|---|\n";
+        char const* const folder = std::getenv("GRANUM_VERIFY_ROWS");
+        if (!folder) return;
+        std::ofstream out(std::string(folder) + "/" + GRANUM_TEST_NAME + ".tsv");
         for (auto const& row : rows_)
-            out << fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", row.id, row.quantity, row.reference,
-                               row.ours, row.difference, row.tolerance, row.published,
+            out << fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", row.id, row.quantity, row.reference, row.ours,
+                               row.difference, row.tolerance, row.published,
                                !row.verdict.empty() ? row.verdict
                                : row.good           ? "holds"
                                                     : "FAILS");
     }
 
   private:
-    static std::pair<char, int> rank(Row const& row) { return {row.id[0], std::atoi(row.id.c_str() + 1)}; }
-
     std::vector<Row> rows_;
 };
 

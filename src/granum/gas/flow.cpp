@@ -10,6 +10,12 @@
 
 namespace granum::gas
 {
+namespace
+{
+constexpr double bearable_mismatch = 0.05;  // of a cell's mass against its equation of state
+constexpr int most_trials = 4;
+}
+
 void Sources::clear(grid::Grid const& grid)
 {
     for (Field* field : {&drag_coefficient, &drag_momentum[0], &drag_momentum[1], &drag_momentum[2], &force[0],
@@ -129,11 +135,29 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     in.static_before = state.static_pressure;
     SharedSources const shared = in.share(sources);
     in.predict(state, shared, dt);
-    auto const pressure = in.project(state, shared, dt, balance);
-    balance.pressure_iterations = pressure.iterations;
-    balance.pressure_converged = pressure.converged;
-    in.carry_scalars(state, sources, dt, balance);
-    in.derive(state);
+    in.expected_temperature = state.temperature;
+    in.expected_vapour = state.vapour_fraction;
+    in.expected_tracer = state.tracer_fraction;
+    // Gas of another density that enters a cell changes the mass that belongs into it: where that is much in a step,
+    // the step is done again with what came of it.
+    bool const may_repeat = in.settings.compressibility != Compressibility::constant;
+    std::optional<State> const predicted = may_repeat ? std::optional(state) : std::nullopt;
+    Balance total;
+    for (int trial = 0;; ++trial) {
+        balance = {};
+        auto const pressure = in.project(state, shared, dt, balance);
+        total.pressure_iterations += pressure.iterations;
+        total.pressure_converged = total.pressure_converged && pressure.converged;
+        in.carry_scalars(state, sources, dt, balance);
+        in.derive(state);
+        if (!may_repeat || trial == most_trials || in.off_state(state) < bearable_mismatch) break;
+        in.expected_temperature = state.temperature;
+        in.expected_vapour = state.vapour_fraction;
+        in.expected_tracer = state.tracer_fraction;
+        state = *predicted;
+    }
+    balance.pressure_iterations = total.pressure_iterations;
+    balance.pressure_converged = total.pressure_converged;
     in.refresh({&state.vapour, &state.tracer, &state.enthalpy, &state.temperature, &state.vapour_fraction,
                 &state.tracer_fraction, &state.density});
     in.check(state);
@@ -144,32 +168,27 @@ double Solver::courant_step(State const& state, double courant) const
 {
     Inside const& in = *inside_;
     double rate = 0;
-    for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (in.repeats_itself(d)) continue;
         for (auto const& run : in.faces[d])
             for (Index q = run.first; q < run.end; ++q)
                 rate = std::max(rate, std::abs(state.velocity[d][q]) * in.per_gap[d][q]);
+    }
     rate = in.comm.max(rate);
     return rate > 0 ? courant / rate : std::numeric_limits<double>::infinity();
 }
 
-namespace
-{
-//! Means of face values by the weights of each cell's two faces.
-std::array<Field, 3> cell_means(grid::Grid const& grid, FaceWeights const& weights, FaceField const& values)
-{
-    std::array<Field, 3> means{grid.make_field(), grid.make_field(), grid.make_field()};
-    for (std::size_t d = 0; d < 3; ++d)
-        grid::for_each_cell(grid, [&](int, int, int, Index c) {
-            means[d][c] = weights.lower[d][c] * values[d][c] + weights.upper[d][c] * values[d][grid.next(c, d)];
-        });
-    grid::refresh(grid, {&means[0], &means[1], &means[2]});
-    return means;
-}
-}
-
 std::array<Field, 3> Solver::cell_velocity(State const& state) const
 {
-    return cell_means(inside_->grid, inside_->weights, state.velocity);
+    Inside const& in = *inside_;
+    std::array<Field, 3> means{in.grid.make_field(), in.grid.make_field(), in.grid.make_field()};
+    for (std::size_t d = 0; d < 3; ++d) {
+        auto const& u = state.velocity[d];
+        for (auto const& run : in.cells)
+            for (Index c = run.first; c < run.end; ++c) means[d][c] = 0.5 * (u[c] + u[in.next(c, d)]);
+    }
+    in.refresh({&means[0], &means[1], &means[2]});
+    return means;
 }
 
 std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
@@ -182,7 +201,13 @@ std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
                 slope[d][q] =
                     (state.pressure[q] - state.pressure[in.before(q, d)]) * in.per_gap[d][q] - in.stress[d][q];
     in.refresh({&slope[0], &slope[1], &slope[2]});
-    return cell_means(in.grid, in.weights, slope);
+    std::array<Field, 3> means{in.grid.make_field(), in.grid.make_field(), in.grid.make_field()};
+    for (std::size_t d = 0; d < 3; ++d)
+        for (auto const& run : in.cells)
+            for (Index c = run.first; c < run.end; ++c)
+                means[d][c] = in.weights.lower[d][c] * slope[d][c] + in.weights.upper[d][c] * slope[d][in.next(c, d)];
+    in.refresh({&means[0], &means[1], &means[2]});
+    return means;
 }
 
 Vec3 Solver::momentum(State const& state) const

@@ -69,8 +69,10 @@ struct Balance
     bool pressure_converged = true;
 };
 
-//! Weights of the lower and upper face of each cell for the cell's mean velocity, by direction: sum to one, boundary
-//! and closed faces have none. The same weights spread a cell's force to its faces, so exchange is reciprocal.
+//! Weights of the lower and upper face of each cell by direction: one half, but all on the other where one is a
+//! boundary or closed. A force on the gas of a cell is spread with them, and the pressure gradient of a cell is
+//! gathered. Drag goes by halves to both faces, as the mean velocity of a cell is that of its two faces, walls at rest
+//! included: what falls to a wall or an inlet is theirs to bear.
 struct FaceWeights
 {
     std::array<Field, 3> lower, upper;
@@ -94,11 +96,11 @@ class Solver
     //! Step with Courant number `courant` at the largest velocity component, s; infinite for gas at rest. Collective.
     double courant_step(State const& state, double courant) const;
 
-    //! @{ Means of the cell's faces by FaceWeights, ghosts filled. A granule of volume V takes the force
-    //! -V (grad p - div tau) beside its drag in model A, with the stress of the last step. Collective.
-    std::array<Field, 3> cell_pressure_gradient(State const& state) const;  //!< grad p - div tau, Pa/m
-    std::array<Field, 3> cell_velocity(State const& state) const;           //!< m/s
-    //! @}
+    //! grad p - div tau of the cells, Pa/m: means of the faces by FaceWeights, ghosts filled, with the stress of the
+    //! last step. A granule of volume V takes the force -V (grad p - div tau) beside its drag in model A. Collective.
+    std::array<Field, 3> cell_pressure_gradient(State const& state) const;
+    //! Velocity of the cells, m/s: means of their two faces, ghosts filled. Collective.
+    std::array<Field, 3> cell_velocity(State const& state) const;
 
     //! Temperature that the implicit heat term of the last step was taken at, K: the gas received
     //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by what convection of second order

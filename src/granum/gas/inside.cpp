@@ -33,12 +33,19 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
       stress(grid.make_face_field()),
       inertia(grid.make_field()),
       gas_volume(grid.make_field()),
+      expected_temperature(grid.make_field(settings.expansion_temperature)),
+      expected_vapour(grid.make_field()),
+      expected_tracer(grid.make_field()),
       viscous(grid.make_field()),
       middle_flux(grid.make_face_field()),
       friction(grid.make_face_field()),
       dragged(grid.make_face_field()),
       begun(grid.make_face_field()),
       rows(grid),
+      halves(grid),
+      change(grid.make_field()),
+      half(grid.make_field(0.5)),
+      link_flux(grid.make_face_field()),
       limit(grid),
       carried{.content = grid.make_field(),
               .capacity = grid.make_field(),
@@ -88,11 +95,13 @@ void Solver::Inside::check(Sources const& sources) const
 
 SharedSources Solver::Inside::share(Sources const& sources) const
 {
-    SharedSources shared{sources.drag_coefficient, sources.mass, sources.force};
+    SharedSources shared{sources.drag_coefficient, sources.mass, sources.drag_momentum, sources.force};
     for (std::size_t d = 0; d < 3; ++d)
-        for (Index c = 0; c < shared.push[d].size(); ++c)
-            shared.push[d][c] += sources.drag_momentum[d][c] + settings.push[d] * gas_volume[c];
-    refresh({&shared.drag_coefficient, &shared.mass, &shared.push[0], &shared.push[1], &shared.push[2]});
+        if (settings.push[d] != 0)
+            for (Index c = 0; c < gas_volume.size(); ++c)
+                shared.drag_momentum[d][c] += settings.push[d] * gas_volume[c];
+    refresh({&shared.drag_coefficient, &shared.mass, &shared.drag_momentum[0], &shared.drag_momentum[1],
+             &shared.drag_momentum[2], &shared.force[0], &shared.force[1], &shared.force[2]});
     return shared;
 }
 

@@ -53,7 +53,7 @@ struct WallPiece
 struct EndRow
 {
     Index face, inner;
-    double mobility, coupling, right;
+    double mobility, coupling, convected, right;  //!< convected: part of the coupling that convection makes
 };
 
 //! The linear system of one set of nodes: centre x = right + sum of coupling times x of the neighbours.
@@ -67,11 +67,17 @@ struct Rows
     explicit Rows(grid::Grid const& grid);
 };
 
+//! What passes links: flux from the lower node to the upper, 1 where there is a link, weight of the lower node.
+struct Links
+{
+    std::array<Field const*, 3> flux, coupled, share;
+};
+
 //! Sources with ghosts filled.
 struct SharedSources
 {
     Field drag_coefficient, mass;
-    std::array<Field, 3> push;  //!< drag_momentum + force, N
+    std::array<Field, 3> drag_momentum, force;  //!< N
 };
 
 //! A conserved scalar for one step: content' = content + dt (source - sink x - div(flux x - conductance grad x)).
@@ -123,21 +129,27 @@ struct Solver::Inside
     Field exchanged;           //!< K
     double static_before = 0;  //!< State::static_pressure at the beginning of the step
 
-    FaceField mobility;                      //!< m_f/dt + K_f + friction, kg/s
-    FaceField stress;                        //!< force of the viscous stress on the faces' volumes per volume, N/m3
-    Field inertia;                           //!< mass of the cells in the middle of the step, kg
-    Field gas_volume;                        //!< eps V, m3
+    FaceField mobility;  //!< m_f/dt + K_f + friction, kg/s
+    FaceField stress;    //!< force of the viscous stress on the faces' volumes per volume, N/m3
+    Field inertia;       //!< mass of the cells in the middle of the step, kg
+    Field gas_volume;    //!< eps V, m3
+    //! What the equation of state takes: as of the beginning of the step, or what came of its last trial.
+    Field expected_temperature, expected_vapour, expected_tracer;
     Field viscous;                           //!< viscosity of the cells, Pa s
     FaceField middle_flux;                   //!< mass flux in the middle of the step, kg/s
     std::array<Field, 3> friction, dragged;  //!< of walls in a cell on a component, kg/s; times the walls' velocity, N
     FaceField begun;                         //!< velocities at the beginning of the step
-    Rows rows;
+    Rows rows, halves;                       //!< of the step; of the correction of convection
+    Field change, half;                      //!< the correction; 1/2 everywhere
+    FaceField link_flux;                     //!< mass flux through the links of one velocity component, kg/s
     Limit limit;
     Carried carried;
 
     Index next(Index at, std::size_t d) const { return grid.next(at, d); }
     Index before(Index at, std::size_t d) const { return grid.before(at, d); }
     void refresh(std::initializer_list<Field*> fields) const { grid::refresh(grid, fields); }
+    //! One cell that is its own neighbour: nothing passes between it and itself.
+    bool repeats_itself(std::size_t d) const { return grid.periodic[d] && grid.global[d] == 1; }
 
     double viscosity(double temperature) const;
     double equation_of_state(double at_pressure, double temperature, double vapour, double tracer) const;
@@ -156,7 +168,10 @@ struct Solver::Inside
     solve::Outcome project(State& state, SharedSources const& sources, double dt, Balance& balance);
     //! Gauss-Seidel sweeps over `rows`, forward and backward, until none changes x by more than `tolerance` of its
     //! largest value. Ghosts of x are filled. Collective.
-    void sweep(std::vector<Run> const& nodes, Field& x, double tolerance, int most);
+    void sweep(Rows& system_of, std::vector<Run> const& nodes, Field& x, double tolerance, int most);
+    //! Fills `limit.added` with what convection of second order adds to the upwind fluxes; `rows` hold the system whose
+    //! solution x is. Ghosts of x and earlier are filled. Collective.
+    void sharpen(std::vector<Run> const& nodes, Links const& links, Field const& x, Field const& earlier);
     //! Solves for x (that before the step in, that of the implicit upwind solution out, ghosts filled) and updates
     //! content, to which convection of second order may have added. Nothing leaves the range of x so far, which the
     //! upwind solution may have widened.
@@ -169,6 +184,8 @@ struct Solver::Inside
     void add_pressure_work(State const& state, double dt, Carried& heat) const;
     void carry_scalars(State& state, Sources const& sources, double dt, Balance& balance);
     void derive(State& state) const;
+    //! How far the mass of a cell is off that of its equation of state, the largest share. Collective.
+    double off_state(State const& state) const;
     void check(State const& state) const;
     void check(Sources const& sources) const;
 };

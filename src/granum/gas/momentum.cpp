@@ -5,9 +5,9 @@
 // obey the cells' continuity. Convection takes the fluxes of the middle of the step, extrapolated from the last two,
 // and has continuity subtracted: uniform flow stays uniform whatever the fluxes do. The mass that goes with them, that
 // of the middle of the step, makes steps of equal length pass the momentum on without loss. After the sweeps what
-// passes between control volumes is evaluated once more, so that what leaves one enters the next to round-off, and
-// convection is brought to second order (limit.hpp). Viscosity is taken at both ends of the step as far as the step is
-// short against its time.
+// passes between control volumes is evaluated once more, so that what leaves one enters the next to round-off:
+// convection, brought to second order (limit.hpp), and then viscosity with what came of it, at both ends of the step as
+// far as the step is not long against its time.
 //
 // The stress is mu (grad u + grad u^T); its isotropic part belongs to the pressure.
 #include "granum/base/vectorised.hpp"
@@ -23,7 +23,7 @@ namespace
 constexpr double sweep_tolerance = 1e-12;  // change of a sweep over the largest speed
 constexpr int most_sweeps = 200;
 constexpr double endless = 1e300;
-constexpr double longest_explicit = 0.7;  // of a link's viscous exchange, over the mass of its smaller node
+constexpr double longest_explicit = 2;  // of a link's viscous exchange, over the mass of its smaller node
 constexpr double fastest_extrapolation = 2;
 
 //! What the loops over the faces of one direction read and write. Links at the index of their upper node.
@@ -32,8 +32,8 @@ struct Loop
     std::ptrdiff_t sd;
     std::array<std::ptrdiff_t, 3> s;
     double per_dt, dt, gravity, model_b, warm, reference;
-    double const *inertia, *mass, *gas, *volume, *p, *per_gap, *drag, *push, *below, *above, *source, *friction,
-        *dragged, *viscous, *u, *temperature;
+    double const *inertia, *mass, *gas, *volume, *p, *per_gap, *drag, *carried, *force, *below, *above, *source,
+        *friction, *dragged, *viscous, *u, *temperature;
     std::array<double const*, 3> flux, coupled, reach, velocity, area, per_gap_of;
     double *mobility, *inverse, *right, *alone, *stress;
     std::array<double*, 6> coupling;
@@ -83,8 +83,8 @@ inline void assemble_one(Loop const& l, Index q)
     double const mass = 0.5 * (l.inertia[low] + l.inertia[q]), gas = 0.5 * (l.gas[low] + l.gas[q]);
     double const volume = l.volume[q], u = l.u[q];
     double const under_pressure = l.model_b > 0 ? volume : gas, eps = l.model_b > 0 ? 1 : gas / volume;
-    double const drag = l.below[low] * l.drag[low] + l.above[q] * l.drag[q];
-    double const push = l.below[low] * l.push[low] + l.above[q] * l.push[q];
+    double const drag = 0.5 * (l.drag[low] + l.drag[q]);
+    double const push = 0.5 * (l.carried[low] + l.carried[q]) + l.below[low] * l.force[low] + l.above[q] * l.force[q];
     double const friction = 0.5 * eps * (l.friction[low] + l.friction[q]);
     double const dragged = 0.5 * eps * (l.dragged[low] + l.dragged[q]);
     double const inertia = mass * l.per_dt;
@@ -97,7 +97,7 @@ inline void assemble_one(Loop const& l, Index q)
 
     double sum = 0, early = 0, stress = 0;
     auto const link = [&](std::size_t e, Index at, Index beside, bool upper, double* out) {
-        double const through = 0.5 * (l.flux[e][at - static_cast<Index>(l.sd)] + l.flux[e][at]);
+        double const through = l.flux[e][at];
         auto const [whole, share] = viscous_link(l, e, e == d, at);
         double const enters = positive(upper ? -through : through) * l.coupled[e][at];
         double const passed = eps * (1 - share) * whole;
@@ -121,12 +121,37 @@ inline void assemble_one(Loop const& l, Index q)
     l.inverse[q] = 1 / (mobility + alone + sum);
 }
 
-//! The velocity from what passes the links in the upwind solution, the same on both sides, and what is added to it.
+//! Once convection is known, in its fluxes of second order: the equation that is left is that of viscosity.
+template <std::size_t d>
+inline void convect_one(Loop const& l, Index q)
+{
+    Index const low = q - static_cast<Index>(l.sd);
+    double const eps = l.model_b > 0 ? 1 : 0.5 * (l.gas[low] + l.gas[q]) / l.volume[q];
+    double const x = l.x[q];
+    double convected = -l.alone[q] * x, sum = 0;
+    auto const link = [&](std::size_t e, Index at, Index beside, bool upper, double* coupling) {
+        double const through = l.flux[e][at];
+        convected += positive(upper ? -through : through) * l.coupled[e][at] * (l.x[beside] - x);
+        auto const [whole, share] = viscous_link(l, e, e == d, at);
+        coupling[q] = eps * (1 - share) * whole;
+        sum += coupling[q];
+    };
+    for (std::size_t e = 0; e < 3; ++e) {
+        Index const se = static_cast<Index>(l.s[e]);
+        link(e, q, q - se, false, l.coupling[2 * e]);
+        link(e, q + se, q + se, true, l.coupling[2 * e + 1]);
+        convected += l.added[e][q] - l.added[e][q + se];
+    }
+    l.right[q] += convected;
+    l.inverse[q] = 1 / (l.mobility[q] + sum);
+}
+
+//! The velocity from what passes the links, the same on both sides.
 template <std::size_t d>
 inline void pass_one(Loop const& l, Index q)
 {
     double const x = l.x[q];
-    double sum = l.right[q] - l.alone[q] * x, late = 0;
+    double sum = l.right[q], late = 0;
     auto const link = [&](std::size_t e, Index at, Index beside, double const* coupling) {
         sum += coupling[q] * (l.x[beside] - x);
         auto const [whole, share] = viscous_link(l, e, e == d, at);
@@ -136,7 +161,6 @@ inline void pass_one(Loop const& l, Index q)
         Index const se = static_cast<Index>(l.s[e]);
         link(e, q, q - se, l.coupling[2 * e]);
         link(e, q + se, q + se, l.coupling[2 * e + 1]);
-        sum += l.added[e][q] - l.added[e][q + se];
     }
     l.stress[q] += late;
     l.exact[q] = sum / l.mobility[q];
@@ -148,6 +172,13 @@ inline void assemble_run(Loop const& given, Index first, Index end)
     Loop const l = given;
 #pragma GCC ivdep
     for (Index q = first; q < end; ++q) assemble_one<d>(l, q);
+}
+template <std::size_t d>
+inline void convect_run(Loop const& given, Index first, Index end)
+{
+    Loop const l = given;
+#pragma GCC ivdep
+    for (Index q = first; q < end; ++q) convect_one<d>(l, q);
 }
 template <std::size_t d>
 inline void pass_run(Loop const& given, Index first, Index end)
@@ -169,6 +200,18 @@ GRANUM_VECTORISED void assemble_z(Loop const& l, Index first, Index end)
     assemble_run<2>(l, first, end);
 }
 
+GRANUM_VECTORISED void convect_x(Loop const& l, Index first, Index end)
+{
+    convect_run<0>(l, first, end);
+}
+GRANUM_VECTORISED void convect_y(Loop const& l, Index first, Index end)
+{
+    convect_run<1>(l, first, end);
+}
+GRANUM_VECTORISED void convect_z(Loop const& l, Index first, Index end)
+{
+    convect_run<2>(l, first, end);
+}
 GRANUM_VECTORISED void pass_x(Loop const& l, Index first, Index end)
 {
     pass_run<0>(l, first, end);
@@ -182,21 +225,10 @@ GRANUM_VECTORISED void pass_z(Loop const& l, Index first, Index end)
     pass_run<2>(l, first, end);
 }
 
-//! What convection of second order adds to the upwind fluxes of the lower links: the mean of both nodes at both ends of
-//! the step less what the upwind solution takes.
-GRANUM_VECTORISED void sharpen(Index first, Index end, std::ptrdiff_t sd, std::ptrdiff_t se, bool along,
-                               double const* __restrict flux, double const* __restrict coupled,
-                               double const* __restrict share, double const* __restrict x,
-                               double const* __restrict earlier, double* __restrict added)
+//! Mass flux through the links of a component: the mean of those of its two cells.
+GRANUM_VECTORISED void mean_flux(Index size, std::ptrdiff_t sd, double const* __restrict flux, double* __restrict out)
 {
-#pragma GCC ivdep
-    for (Index q = first; q < end; ++q) {
-        Index const low = q - static_cast<Index>(se);
-        double const through = 0.5 * (flux[q - static_cast<Index>(sd)] + flux[q]);
-        double const of_low = along ? 0.5 : share[q];
-        double const centred = 0.5 * (of_low * (x[low] + earlier[low]) + (1 - of_low) * (x[q] + earlier[q]));
-        added[q] = through * coupled[q] * (centred - (through > 0 ? x[low] : x[q]));
-    }
+    for (Index q = static_cast<Index>(sd); q < size; ++q) out[q] = 0.5 * (flux[q - static_cast<Index>(sd)] + flux[q]);
 }
 }
 
@@ -256,6 +288,8 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
     auto const pointers = [](auto const& fields) {
         return std::array<double const*, 3>{fields[0].data(), fields[1].data(), fields[2].data()};
     };
+    for (std::size_t e = 0; e < 3; ++e)
+        mean_flux(x.size(), grid.strides[d], middle_flux[e].data(), link_flux[e].data());
     Loop loop{.sd = grid.strides[d],
               .s = grid.strides,
               .per_dt = 1 / dt,
@@ -271,7 +305,8 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
               .p = state.pressure.data(),
               .per_gap = per_gap[d].data(),
               .drag = sources.drag_coefficient.data(),
-              .push = sources.push[d].data(),
+              .carried = sources.drag_momentum[d].data(),
+              .force = sources.force[d].data(),
               .below = weights.upper[d].data(),
               .above = weights.lower[d].data(),
               .source = sources.mass.data(),
@@ -280,7 +315,7 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
               .viscous = viscous.data(),
               .u = before_step.data(),
               .temperature = state.temperature.data(),
-              .flux = pointers(middle_flux),
+              .flux = pointers(link_flux),
               .coupled = pointers(coupled[d]),
               .reach = pointers(reach[d]),
               .velocity = pointers(begun),
@@ -305,18 +340,27 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
         rows.inverse[edge.face] = 1 / (1 / rows.inverse[edge.face] + enters);
     }
     make_end_rows(d, state, dt);
-    sweep(faces[d], x, sweep_tolerance, most_sweeps);
+    sweep(rows, faces[d], x, sweep_tolerance, most_sweeps);
 
     limit.clear();
     if (settings.second_order) {
-        for (auto const& run : faces[d])
-            for (std::size_t e = 0; e < 3; ++e)
-                sharpen(run.first, run.end, grid.strides[d], grid.strides[e], e == d, middle_flux[e].data(),
-                        coupled[d][e].data(), low_share[e].data(), x.data(), before_step.data(), limit.added[e].data());
+        std::array<Field const*, 3> share{&low_share[0], &low_share[1], &low_share[2]};
+        share[d] = &half;  // a cell's centre lies in the middle of its faces
+        sharpen(
+            faces[d],
+            {{&link_flux[0], &link_flux[1], &link_flux[2]}, {&coupled[d][0], &coupled[d][1], &coupled[d][2]}, share}, x,
+            before_step);
         limit.scale(grid, faces[d], x, before_step, mobility[d], {&coupled[d][0], &coupled[d][1], &coupled[d][2]},
                     -endless, endless);
     }
-    constexpr std::array pass{pass_x, pass_y, pass_z};
+    // Convection is known now; viscosity is taken at what comes of it.
+    constexpr std::array convect{convect_x, convect_y, convect_z}, pass{pass_x, pass_y, pass_z};
+    for (auto const& run : faces[d]) convect[d](loop, run.first, run.end);
+    for (auto& end : rows.ends) {
+        end.right += end.convected * (x[end.inner] - x[end.face]);
+        end.coupling -= end.convected;
+    }
+    sweep(rows, faces[d], x, sweep_tolerance, most_sweeps);
     for (auto const& run : faces[d]) pass[d](loop, run.first, run.end);
     for (auto& end : rows.ends) end.right = (end.right + end.coupling * (x[end.inner] - x[end.face])) / end.mobility;
     for (auto const& run : faces[d])
@@ -348,7 +392,7 @@ void Solver::Inside::make_end_rows(std::size_t d, State const& state, double dt)
         bool const b = settings.model == Model::b;
         double const weight = 0.5 * state.mass[c] * settings.gravity[d] * (b ? 1 / eps : 1.0);
         mobility[d][q] = inertia_here + filter;
-        rows.ends.push_back({q, inner, mobility[d][q], positive(from_inside) + reach_in,
+        rows.ends.push_back({q, inner, mobility[d][q], positive(from_inside) + reach_in, positive(from_inside),
                              inertia_here * begun[d][q] + filter * through[face.number] / outlet_areas[face.number] +
                                  weight - (b ? volume : gas) * slope});
     }

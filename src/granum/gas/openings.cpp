@@ -106,6 +106,7 @@ void Solver::Inside::find_faces()
                 face_volume[d][q] = 0.5 * (grid.open_volume[q] + grid.open_volume[before(q, d)]);
         refresh({&face_volume[d]});
         for (std::size_t e = 0; e < 3; ++e) {
+            if (repeats_itself(e)) continue;
             // Links of all faces, and those above the last: of faces that another rank or an opening has.
             std::array<int, 3> beyond = last;
             ++beyond[e];

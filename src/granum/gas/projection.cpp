@@ -76,7 +76,7 @@ solve::Outcome Solver::Inside::project(State& state, SharedSources const& source
 
     // A low-Mach box without outlet keeps its gas: its pressure follows from how much there is.
     auto const state_of = [&](Index c, double at_pressure) {
-        return equation_of_state(at_pressure, state.temperature[c], state.vapour_fraction[c], state.tracer_fraction[c]);
+        return equation_of_state(at_pressure, expected_temperature[c], expected_vapour[c], expected_tracer[c]);
     };
     if (settings.compressibility == Compressibility::low_mach && outlet_areas.empty()) {
         std::array<double, 3> sums{};

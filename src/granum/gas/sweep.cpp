@@ -60,19 +60,19 @@ void backward(Line const& l, Index first, Index end, double const* partial, doub
 }
 }
 
-void Solver::Inside::sweep(std::vector<Run> const& nodes, Field& x, double tolerance, int most)
+void Solver::Inside::sweep(Rows& system_of, std::vector<Run> const& nodes, Field& x, double tolerance, int most)
 {
     auto const [a, b, c] = grid.order;
     Line up{.s1 = grid.strides[b],
             .s2 = grid.strides[c],
-            .behind = rows.coupling[2 * a].data(),
-            .ahead = rows.coupling[2 * a + 1].data(),
-            .low1 = rows.coupling[2 * b].data(),
-            .high1 = rows.coupling[2 * b + 1].data(),
-            .low2 = rows.coupling[2 * c].data(),
-            .high2 = rows.coupling[2 * c + 1].data(),
-            .right = rows.right.data(),
-            .inverse = rows.inverse.data()};
+            .behind = system_of.coupling[2 * a].data(),
+            .ahead = system_of.coupling[2 * a + 1].data(),
+            .low1 = system_of.coupling[2 * b].data(),
+            .high1 = system_of.coupling[2 * b + 1].data(),
+            .low2 = system_of.coupling[2 * c].data(),
+            .high2 = system_of.coupling[2 * c + 1].data(),
+            .right = system_of.right.data(),
+            .inverse = system_of.inverse.data()};
     Line down = up;
     std::swap(down.behind, down.ahead);
 
@@ -81,15 +81,15 @@ void Solver::Inside::sweep(std::vector<Run> const& nodes, Field& x, double toler
         Seen seen;
         if (sweep % 2 == 0)
             for (auto const& run : nodes) {
-                gather(up, run.first, run.end, 1, x.data(), rows.partial.data());
-                forward(up, run.first, run.end, rows.partial.data(), x.data(), seen);
+                gather(up, run.first, run.end, 1, x.data(), system_of.partial.data());
+                forward(up, run.first, run.end, system_of.partial.data(), x.data(), seen);
             }
         else
             for (auto run = nodes.rbegin(); run != nodes.rend(); ++run) {
-                gather(down, run->first, run->end, -1, x.data(), rows.partial.data());
-                backward(down, run->first, run->end, rows.partial.data(), x.data(), seen);
+                gather(down, run->first, run->end, -1, x.data(), system_of.partial.data());
+                backward(down, run->first, run->end, system_of.partial.data(), x.data(), seen);
             }
-        for (auto const& end : rows.ends) {
+        for (auto const& end : system_of.ends) {
             double const value = (end.right + end.coupling * x[end.inner]) / (end.mobility + end.coupling);
             seen.change = std::max(seen.change, std::abs(value - x[end.face]));
             x[end.face] = value;

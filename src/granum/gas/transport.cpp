@@ -17,7 +17,7 @@ namespace
 {
 constexpr double sweep_tolerance = 1e-12;  // change of a sweep over the largest value
 constexpr int most_sweeps = 500;
-constexpr double longest_explicit = 0.7;  // of a link's diffusion, over the capacity of its smaller cell
+constexpr double longest_explicit = 1.0 / 6;  // of a link's diffusion, over the capacity of its smaller cell
 
 struct Loop
 {
@@ -83,18 +83,6 @@ GRANUM_VECTORISED void pass(Loop const& given, std::size_t e, Index first, Index
 #pragma GCC ivdep
     for (Index c = first; c < end; ++c) passed[c] = passes(l, e, c);
 }
-
-GRANUM_VECTORISED void sharpen(Index first, Index end, std::ptrdiff_t se, double const* __restrict flux,
-                               double const* __restrict inner, double const* __restrict share,
-                               double const* __restrict x, double const* __restrict earlier, double* __restrict added)
-{
-#pragma GCC ivdep
-    for (Index c = first; c < end; ++c) {
-        Index const low = c - static_cast<Index>(se);
-        double const centred = 0.5 * (share[c] * (x[low] + earlier[low]) + (1 - share[c]) * (x[c] + earlier[c]));
-        added[c] = flux[c] * inner[c] * (centred - (flux[c] > 0 ? x[low] : x[c]));
-    }
-}
 }
 
 void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
@@ -104,6 +92,9 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
     for (auto const& face : inlets) x[outside(face)] = what.at_inlets[face.number];
     for (auto const& face : outlets) x[outside(face)] = what.at_outlets[face.number];
     Field const earlier = x;
+    for (std::size_t e = 0; e < 3; ++e)
+        if (repeats_itself(e))
+            for (auto* links : {&what.flux[e], &what.conductance[e]}) std::fill(links->begin(), links->end(), 0.0);
 
     Loop loop{.s = grid.strides,
               .per_dt = 1 / dt,
@@ -130,14 +121,15 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
     for (std::size_t m = 0; m < 6; ++m) loop.coupling[m] = rows.coupling[m].data();
     rows.ends.clear();
     for (auto const& run : cells) assemble(loop, run.first, run.end);
-    sweep(cells, x, sweep_tolerance, most_sweeps);
+    sweep(rows, cells, x, sweep_tolerance, most_sweeps);
 
     limit.clear();
     if (settings.second_order) {
-        for (auto const& run : cells)
-            for (std::size_t e = 0; e < 3; ++e)
-                sharpen(run.first, run.end, grid.strides[e], what.flux[e].data(), solved[e].data(), low_share[e].data(),
-                        x.data(), earlier.data(), limit.added[e].data());
+        sharpen(cells,
+                {{&what.flux[0], &what.flux[1], &what.flux[2]},
+                 {&solved[0], &solved[1], &solved[2]},
+                 {&low_share[0], &low_share[1], &low_share[2]}},
+                x, earlier);
         std::array<double, 2> seen{range.most, -range.least};
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) seen = {std::max(seen[0], x[c]), std::max(seen[1], -x[c])};
@@ -301,6 +293,20 @@ void Solver::Inside::add_pressure_work(State const& state, double dt, Carried& h
     for (auto const& run : cells)
         for (Index c = run.first; c < run.end; ++c)
             heat.source[c] += gas_volume[c] * (full ? correction[c] / dt : rise);
+}
+
+double Solver::Inside::off_state(State const& state) const
+{
+    double worst = 0;
+    bool const full = settings.compressibility == Compressibility::full;
+    for (auto const& run : cells)
+        for (Index c = run.first; c < run.end; ++c) {
+            double const at = full ? settings.pressure + state.pressure[c] : state.static_pressure;
+            double const goal = gas_volume[c] * equation_of_state(at, state.temperature[c], state.vapour_fraction[c],
+                                                                  state.tracer_fraction[c]);
+            worst = std::max(worst, std::abs(state.mass[c] / goal - 1));
+        }
+    return comm.max(worst);
 }
 
 void Solver::Inside::derive(State& state) const

@@ -50,6 +50,11 @@ constexpr std::array rows{
     Row{Dimension::energy, "an energy", "J", "1 J", "J"},
     Row{Dimension::force, "a force", "N", "1 N", "N"},
     Row{Dimension::count_rate, "a rate", "1/s", "20000 1/s", "1/s"},
+    Row{Dimension::diffusivity, "a diffusivity", "m2/s", "2.5e-5 m2/s", "m2/s"},
+    Row{Dimension::expansion, "a thermal expansion", "1/K", "0.0034 1/K", "1/K"},
+    Row{Dimension::heat_transfer, "a heat transfer coefficient", "W/m2/K", "5 W/m2/K", "W/m2/K"},
+    Row{Dimension::pressure_gradient, "a pressure gradient", "Pa/m", "100 Pa/m", "Pa/m"},
+    Row{Dimension::flow_resistance, "a resistance of flow", "Pa.s/m", "30 Pa.s/m", "Pa.s/m"},
 };
 
 Row const& row_of(Dimension dimension)

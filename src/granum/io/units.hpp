@@ -36,6 +36,11 @@ enum class Dimension
     energy,
     force,
     count_rate,
+    diffusivity,
+    expansion,
+    heat_transfer,
+    pressure_gradient,
+    flow_resistance,
 };
 
 //! A text that is not a quantity of the dimension; `hint` may be empty.

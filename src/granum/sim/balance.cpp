@@ -3,6 +3,8 @@
 #include "granum/base/error.hpp"
 #include "granum/material/moist_air.hpp"
 
+#include <algorithm>
+
 namespace granum::sim
 {
 namespace
@@ -21,20 +23,50 @@ double temperature_of(double enthalpy, double humidity)
 }
 }
 
+double open_area(Case const& data, OpeningCase const& opening)
+{
+    if (opening.round) return math::pi * (opening.outer * opening.outer - opening.inner * opening.inner);
+    auto const& chamber = data.chamber;
+    std::size_t const e = (opening.direction + 1) % 3, f = (opening.direction + 2) % 3;
+    Vec3 low = chamber.lower(), high = chamber.upper();
+    if (!opening.rectangle && opening.direction == 2) return chamber.area(opening.upper ? chamber.height() : 0);
+    if (opening.rectangle)
+        for (std::size_t const d : {e, f}) {
+            low[d] = std::max(low[d], opening.rectangle->lower[d]);
+            high[d] = std::min(high[d], opening.rectangle->upper[d]);
+        }
+    return std::max(0.0, high[e] - low[e]) * std::max(0.0, high[f] - low[f]);
+}
+
+double moist_mass_flow(Case const& data, InletCase const& inlet)
+{
+    if (inlet.velocity <= 0) return inlet.dry_mass_flow * (1 + inlet.humidity);
+    auto const& gas = data.gas;
+    double const vapour = material::fraction(inlet.humidity);
+    double const carrier = gas.molar_mass.value_or(material::molar_mass_air);
+    double const water = gas.vapour_molar_mass.value_or(material::molar_mass_water);
+    double const tracer = gas.tracer ? gas.tracer->molar_mass.value_or(carrier) : carrier;
+    double const moles = (1 - vapour - inlet.tracer) / carrier + vapour / water + inlet.tracer / tracer;
+    double const density = gas.density.value_or(gas.pressure / (math::gas_constant * inlet.temperature * moles));
+    return density * inlet.velocity * open_area(data, inlet.at);
+}
+
 double dry_inlet_flow(Case const& data)
 {
-    InletCase const& inlet = data.gas.inlet;
-    if (inlet.dry_mass_flow > 0 || inlet.velocity <= 0) return inlet.dry_mass_flow;
-    double const vapour = material::fraction(inlet.humidity);
-    double const density = data.gas.density.value_or(material::density(data.gas.pressure, inlet.temperature, vapour));
-    return density * (1 - vapour) * inlet.velocity * data.chamber.area(0);
+    double sum = 0;
+    for (auto const& inlet : data.gas.inlets) sum += moist_mass_flow(data, inlet) / (1 + inlet.humidity);
+    return sum;
 }
 
 Balance balance(Case const& data)
 {
-    double dry = dry_inlet_flow(data);
-    double humidity = dry * data.gas.inlet.humidity;
-    double heat = dry * enthalpy_per_dry(data.gas.inlet.temperature, data.gas.inlet.humidity);
+    double dry = 0, humidity = 0, heat = 0;
+    for (auto const& inlet : data.gas.inlets) {
+        double const flow = moist_mass_flow(data, inlet) / (1 + inlet.humidity);
+        dry += flow;
+        humidity += flow * inlet.humidity;
+        heat += flow * enthalpy_per_dry(inlet.temperature, inlet.humidity);
+    }
     for (auto const& nozzle : data.spray.nozzles) {
         dry += nozzle.air_mass_flow;
         humidity += nozzle.air_mass_flow * nozzle.air_humidity;

@@ -21,10 +21,16 @@ struct Balance
     bool overwetted() const { return eta < 0 || outlet_relative_humidity >= 1; }
 };
 
-//! Dry air that enters through the plate, kg/s: as given, or from the superficial velocity and the plate's area.
+//! Area of an opening, m2, without what of it walls within the chamber cover.
+double open_area(Case const& data, OpeningCase const& opening);
+
+//! Gas that enters through an inlet, kg/s: as given, or from the superficial velocity and the opening's area.
+double moist_mass_flow(Case const& data, InletCase const& inlet);
+
+//! Dry air that enters through all inlets, kg/s.
 double dry_inlet_flow(Case const& data);
 
-//! The balance of a case with an inlet. Atomising air is a second inlet, mixed in by enthalpy and humidity; the liquid
+//! The balance of a case with inlets. Atomising air is another one: all are mixed by enthalpy and humidity; the liquid
 //! brings the enthalpy of its water at its temperature. Throws base::NumericsError where no dry air flows.
 //! Source: physics of adiabatic saturation, drying potential eta = (Y_wb - Y_out) / (Y_wb - Y_in).
 Balance balance(Case const& data);

@@ -66,7 +66,8 @@ double collision_speed(Case const& data)
 {
     double fastest = 1.0;
     if (data.gas.present && !data.gas.closed) {
-        double const flow = dry_inlet_flow(data) * (1 + data.gas.inlet.humidity);
+        double flow = 0;
+        for (auto const& inlet : data.gas.inlets) flow += moist_mass_flow(data, inlet);
         double const density = data.gas.density ? *data.gas.density
                                                 : material::density(data.gas.pressure, data.gas.inlet.temperature,
                                                                     material::fraction(data.gas.inlet.humidity));
@@ -162,27 +163,6 @@ particle::Groups column_groups(Case const& data)
                     [](auto const& b) { return b.parcel_ratio > 1; }) ||
         std::any_of(granules.given.begin(), granules.given.end(), [](auto const& one) { return one.count != 1; });
     return {.parcel = gas || parcels, .gas = gas, .process = gas};
-}
-
-gas::Settings gas_settings(Case const& data)
-{
-    gas::Settings settings;
-    auto const& inlet = data.gas.inlet;
-    settings.outlets.clear();
-    if (!data.gas.closed) {
-        settings.inlets = {gas::Inlet{.mass_flow = dry_inlet_flow(data) * (1 + inlet.humidity),
-                                      .temperature = inlet.temperature,
-                                      .vapour_fraction = material::fraction(inlet.humidity),
-                                      .at = {.name = "plate"}}};
-        settings.outlets = {gas::Outlet{.ambient_temperature = inlet.temperature,
-                                        .ambient_vapour_fraction = material::fraction(inlet.humidity)}};
-    }
-    settings.pressure = data.gas.pressure;
-    settings.gravity = data.gravity;
-    settings.density = data.gas.density;
-    settings.viscosity = data.gas.viscosity;
-    settings.conductivity = data.gas.conductivity;
-    return settings;
 }
 
 coupling::Laws exchange_laws(Case const& data)

@@ -122,24 +122,101 @@ struct FeedCase
     double interval = 0.01;                                 //!< between portions, s
 };
 
-//! A gas flow at its inlet.
-struct InletCase
+//! A gas flow.
+struct FlowCase
 {
     double dry_mass_flow = 0;     //!< kg dry air per s; 0 where `velocity` is given
-    double velocity = 0;          //!< superficial at the plate, m/s; < 0: not given
+    double velocity = 0;          //!< superficial where it enters, m/s; < 0: not given
     double temperature = 293.15;  //!< K
     double humidity = 0;          //!< kg water per kg dry air
+};
+
+//! A hole of a plate.
+struct HoleCase
+{
+    double x, y;    //!< of its centre along the two directions of the plate, m
+    double radius;  //!< m
+};
+
+//! A part of an end of the domain: [[inlet]] or [[outlet]].
+struct OpeningCase
+{
+    std::string name;
+    std::size_t direction = 2;  //!< of the end
+    bool upper = false;
+    std::optional<RegionCase> rectangle;       //!< only what lies within
+    bool round = false;                        //!< only a disc or ring
+    Vec3 centre{};                             //!< of it, m
+    double outer = 0, inner = 0;               //!< radii, m
+    bool parabolic = false;                    //!< laminar profile of velocity; else even, or by rings or holes
+    std::vector<std::array<double, 2>> rings;  //!< outer radius (m), relative mass flow per area
+    std::vector<HoleCase> holes;
+};
+
+//! [[inlet]]
+struct InletCase : FlowCase
+{
+    OpeningCase at;
+    double tracer = 0;      //!< kg/kg moist gas
+    double resistance = 0;  //!< K of K rho u^2 / 2, of the plate
+};
+
+//! [[outlet]]
+struct OutletCase
+{
+    OpeningCase at;
+    double pressure = 0;                        //!< above gas.pressure, Pa
+    double resistance = 30;                     //!< Pa s/m
+    double temperature = 293.15, humidity = 0;  //!< of what is drawn in
+};
+
+//! [[gas.wall]]
+struct GasWallCase
+{
+    std::string of = "all";  //!< an end of a box, "chamber", or "all"
+    bool slip = false;
+    Vec3 velocity;                      //!< m/s
+    std::optional<double> temperature;  //!< K
+    double loss = 0;                    //!< W/m2/K
+    double outside = 293.15;            //!< K
+};
+
+//! [[gas.fine]]: cells of their own size between two planes.
+struct FineCase
+{
+    std::size_t axis = 2;
+    double lower = 0, upper = 0, size = 0;  //!< m
+    double growth = 1.2;                    //!< ratio of neighbours beyond
+};
+
+//! [gas.tracer]
+struct TracerCase
+{
+    double diffusivity = 2e-5;  //!< m2/s
+    std::optional<double> molar_mass;
 };
 
 //! [gas]
 struct GasCase
 {
     bool present = false;
-    InletCase inlet;
-    double pressure = math::standard_pressure;  //!< Pa at the outlet
-    std::optional<double> density, viscosity,
-        conductivity;  //!< constant values instead of moist air (verification cases)
+    //! All inlets together: their flow, mixed temperature and humidity; of a plate, its velocity.
+    FlowCase inlet;
+    std::vector<InletCase> inlets;
+    std::vector<OutletCase> outlets;
+    std::vector<GasWallCase> walls;
+    std::string model = "A";
+    std::string compressibility = "low-mach";                             //!< "constant", "low-mach" or "full"
+    std::string convection = "second-order";                              //!< or "upwind"
+    double pressure = math::standard_pressure;                            //!< Pa at the outlet
+    std::optional<double> density, viscosity, conductivity, diffusivity;  //!< constant values instead of moist air
+    std::optional<double> molar_mass, vapour_molar_mass;                  //!< kg/mol, instead of air and water
+    double expansion = 0, expansion_temperature = 293.15;                 //!< of a constant density: 1/K, K
+    Vec3 push;                                                            //!< N/m3
+    std::optional<TracerCase> tracer;
     std::array<int, 3> cells{1, 1, 1};
+    std::array<std::vector<double>, 3> faces;  //!< of the cells, m
+    std::vector<FineCase> fine;
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";
     double smoothing = 0;   //!< bandwidth of the voidage smoothing, m; 0: off

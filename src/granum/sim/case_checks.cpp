@@ -176,8 +176,10 @@ void check_drying(io::CaseFile& file, Case const& data)
 void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vector<std::string>& warnings)
 {
     bool const chamber = chamber_known(file);
+    bool const by_velocity = std::any_of(data.gas.inlets.begin(), data.gas.inlets.end(),
+                                         [](auto const& inlet) { return inlet.velocity > 0; });
     if (purpose == Purpose::balance) {
-        if (data.gas.inlet.velocity > 0 && !chamber)
+        if (by_velocity && !chamber)
             file.mistake("gas.velocity", "needs an [apparatus]: the flow depends on its plate");
         return;  // over-wetting is an answer of a balance, not a mistake
     }
@@ -190,7 +192,7 @@ void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vec
         }
         check_nozzles(file, data);
     }
-    if (data.gas.inlet.velocity <= 0 || chamber) check_drying(file, data);
+    if (!by_velocity || chamber) check_drying(file, data);
     if (chamber) check_hard_spheres(file, data);
     if (file.any_mistake()) return;
     auto const coming = forecast(data, 1);

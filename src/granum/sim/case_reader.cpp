@@ -53,6 +53,8 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
     read_granules(file, data, purpose);
     read_feeds(file, data);
     read_gas(file, data, purpose);
+    read_openings(file, data);
+    read_gas_walls(file, data);
     read_cells(file, data);
     read_spray(file, data, purpose);
     read_process(file, data, purpose);

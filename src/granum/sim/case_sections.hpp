@@ -14,6 +14,12 @@ void read_walls(io::CaseFile& file, Case& data);                      //!< after
 void read_region(io::CaseFile& file, Case& data);                     //!< after the apparatus
 void read_feeds(io::CaseFile& file, Case& data);                      //!< after the granules
 void read_gas(io::CaseFile& file, Case& data, Purpose purpose);
+void read_openings(io::CaseFile& file, Case& data);   //!< [[inlet]], [[outlet]], after [gas]
+void read_gas_walls(io::CaseFile& file, Case& data);  //!< [[gas.wall]], after the apparatus
+//! Flow, temperature and humidity of a gas, at the keys that begin with `key` ("gas.").
+FlowCase read_flow(io::CaseFile& file, std::string const& key, GasCase const& gas, double temperature);
+//! left, right, front, back, bottom, top.
+std::vector<std::string> const& end_names();
 void read_cells(io::CaseFile& file, Case& data);  //!< after the apparatus and the granules
 void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
 void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [drying] [product] [start]

@@ -147,10 +147,10 @@ std::optional<double> settled_height(Case const& data)
 
 double plate_velocity(Case const& data)
 {
-    if (!data.gas.present || data.gas.closed) return 0;
-    if (data.gas.inlet.velocity > 0) return data.gas.inlet.velocity;
-    double const moist = data.gas.inlet.dry_mass_flow * (1 + data.gas.inlet.humidity);
-    return moist / (gas_density(data) * data.chamber.area(0));
+    double flow = 0;
+    for (auto const& inlet : data.gas.inlets)
+        if (inlet.at.direction == 2 && !inlet.at.upper) flow += moist_mass_flow(data, inlet);
+    return flow > 0 ? flow / (gas_density(data) * data.chamber.area(0)) : 0;
 }
 
 double expected_contact_speed(Case const& data)
@@ -165,8 +165,7 @@ std::vector<dem::StepBound> granule_step_bounds(Case const& data, double speed)
 
 bool has_balance(Case const& data)
 {
-    return data.gas.present && !data.gas.closed && !data.gas.density &&
-           (data.gas.inlet.dry_mass_flow > 0 || data.gas.inlet.velocity > 0);
+    return data.gas.present && !data.gas.density && dry_inlet_flow(data) > 0;
 }
 
 Forecast forecast(Case const& data, int ranks)

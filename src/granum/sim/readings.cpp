@@ -73,13 +73,12 @@ Readings Simulation::readings() const
             coldest = std::min(coldest, gas_.temperature[cell]);
             hottest = std::max(hottest, gas_.temperature[cell]);
             if (k == 0 && grid_.at_end(2, false)) {
-                // Less the weight of the gas column, as a differential pressure gauge beside the bed would read. The
-                // drag of the lowest cell acts on its upper face, so the gas below the centre loses no pressure more;
-                // what the slope does to granules that float there is the plate's to hold up: the solids' share of it.
-                double const column = gas_.density[cell] * g * (height - grid_.centre(i, j, k).z);
-                double const slope = gas_.pressure[cell] - gas_.pressure[grid_.at(i, j, k + 1)];
-                double const lifted = case_.granules.frozen ? 0 : 1 - gas_.voidage[cell];
-                double const plate = gas_.pressure[cell] + 0.5 * lifted * slope;
+                // Less the weight of the gas column, as a differential pressure gauge beside the bed would read; the
+                // lower half of the cell at the plate falls as steeply as what is above it.
+                double const column = gas_.density[cell] * g * (height - grid_.axes[2].face(k));
+                double const slope =
+                    (gas_.pressure[cell] - gas_.pressure[grid_.at(i, j, k + 1)]) / grid_.axes[2].gap(k + 1);
+                double const plate = gas_.pressure[cell] + 0.5 * grid_.axes[2].width(k) * slope;
                 double const area = grid_.open_area[2][cell];
                 sums[plate_area] += area;
                 sums[plate_pressure] += area * (plate - column);

@@ -34,7 +34,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         mover_ = std::move(hard);
     }
     if (case_.gas.present)
-        lines_ = grid::uniform_lines(case_.chamber.lower(), case_.chamber.upper(), case_.gas.cells);
+        lines_ = gas_lines(case_);
     else
         settings.balance_every = rebuilds_between_balances;
     granule_dt_ = granule_step(case_);

@@ -37,7 +37,7 @@ struct DryingCurve
 void Simulation::make_gas()
 {
     auto const& gas = case_.gas;
-    if (!gas.closed) {
+    if (!gas.inlets.empty() && dry_inlet_flow(case_) > 0) {
         balance_ = balance(case_);
         wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
     }
@@ -52,7 +52,7 @@ void Simulation::start_gas()
 {
     auto const& gas = case_.gas;
     auto const& inlet = gas.inlet;
-    bool const flows = !gas.closed;
+    bool const flows = !gas.inlets.empty();
     bool const steady = flows && case_.start.quasi_steady;
     double const temperature = case_.start.gas_temperature ? *case_.start.gas_temperature
                                : steady                    ? balance_.outlet_temperature
@@ -71,7 +71,8 @@ void Simulation::start_gas()
     if (flows && velocity == Vec3{}) {
         double const density = gas.density ? *gas.density : air::density(gas.pressure, temperature, vapour);
         double const area = case_.chamber.volume() / case_.chamber.height();
-        velocity.z = solver_->settings().inlets.front().mass_flow / (density * area);
+        for (auto const& one : solver_->settings().inlets)
+            if (one.at.direction == 2) velocity.z += (one.at.upper ? -1 : 1) * one.mass_flow / (density * area);
     }
     mapping_->locate(granules_);
     gas_ = solver_->start(exchange_->voidage(granules_), temperature, vapour, velocity);
@@ -92,7 +93,9 @@ void Simulation::start_deposits()
 
     auto const film = law::deposit::film(temperature, 1.0, temperature, vapour, pressure);
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
-    double const speed = solver_->settings().inlets.front().mass_flow / (density * case_.chamber.area(0));
+    double flow = 0;
+    for (auto const& inlet : solver_->settings().inlets) flow += inlet.mass_flow;
+    double const speed = flow / (density * case_.chamber.area(0));
     double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
     double const sherwood = std::visit(
         [&](auto const& law) {

@@ -134,7 +134,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
     if (simulation.has_gas()) {
         auto const& steady = simulation.steady();
         out["gas"]["cells"] = data.gas.cells[0] * data.gas.cells[1] * data.gas.cells[2];
-        if (!data.gas.closed)
+        if (steady.dry_mass_flow > 0)
             out["balance"] = {{"eta", steady.eta},
                               {"outlet_humidity", steady.outlet_humidity},
                               {"outlet_temperature_K", steady.outlet_temperature},

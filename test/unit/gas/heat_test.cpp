@@ -128,17 +128,16 @@ TEST(Heat, granules_get_exactly_what_the_gas_gives)
         run.sources.heat_value[c] = run.sources.heat_coefficient[c] * 30;
     });
     double const before = run.sum(run.state.enthalpy);
-    run.step(0.01);
+    double const work = run.step(0.01).pressure_work;  // the box cools: its pressure falls
     double given = 0;
     grid::for_each_cell(run.grid, [&](int, int, int, grid::Index c) {
         double const t = run.solver.exchanged_temperature()[c] - 273.15;
         given -= 0.01 * (run.sources.heat_value[c] - run.sources.heat_coefficient[c] * t);
-        EXPECT_NEAR(run.solver.exchanged_temperature()[c], run.state.temperature[c], 1e-6);
         EXPECT_GT(t, 30);
         EXPECT_LT(t, 60);
     });
     EXPECT_GT(given, 0);
-    EXPECT_NEAR(run.sum(run.state.enthalpy), before - given, 1e-12 * before);
+    EXPECT_NEAR(run.sum(run.state.enthalpy), before - given + work, 1e-12 * before);
 }
 
 TEST(Heat, a_moving_bed_keeps_the_gas_it_pushes_around)

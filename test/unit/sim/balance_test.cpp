@@ -60,7 +60,9 @@ TEST(Balance, agrees_with_the_reference_table_of_spray_beds)
         }
         Case data;
         data.gas.present = data.spray.present = true;
-        data.gas.inlet = {.dry_mass_flow = v[2], .velocity = -1, .temperature = v[0] + 273.15, .humidity = v[1]};
+        data.gas.inlets.resize(1);
+        static_cast<FlowCase&>(data.gas.inlets.front()) = {
+            .dry_mass_flow = v[2], .velocity = -1, .temperature = v[0] + 273.15, .humidity = v[1]};
         data.spray.rate = v[3];
         data.spray.solids_fraction = 0;
         data.spray.temperature = v[4] + 273.15;
@@ -78,7 +80,7 @@ TEST(Balance, keeps_all_potential_without_spray_and_none_at_saturation)
     auto data = lab();
     data.spray.rate = 0;
     EXPECT_NEAR(balance(data).eta, 1, 1e-12);
-    EXPECT_NEAR(balance(data).outlet_temperature, data.gas.inlet.temperature, 1e-9);
+    EXPECT_NEAR(balance(data).outlet_temperature, data.gas.inlets.front().temperature, 1e-9);
     auto const dry = balance(data);
     data.spray.rate =
         (dry.wet_bulb_humidity - dry.inlet_humidity) * dry.dry_mass_flow / (1 - data.spray.solids_fraction);
@@ -93,7 +95,7 @@ TEST(Balance, of_scaled_flows_is_the_same)
 {
     auto data = lab();
     double const eta = balance(data).eta;
-    data.gas.inlet.dry_mass_flow *= 8;
+    data.gas.inlets.front().dry_mass_flow *= 8;
     data.spray.rate *= 8;
     EXPECT_NEAR(balance(data).eta, eta, 1e-12);
 }
@@ -103,20 +105,20 @@ TEST(Balance, takes_atomising_air_as_a_second_inlet)
     auto data = lab();
     NozzleCase nozzle;
     nozzle.air_mass_flow = 1.2 / 3600;
-    nozzle.air_temperature = data.gas.inlet.temperature;
-    nozzle.air_humidity = data.gas.inlet.humidity;
+    nozzle.air_temperature = data.gas.inlets.front().temperature;
+    nozzle.air_humidity = data.gas.inlets.front().humidity;
     data.spray.nozzles = {nozzle};
     auto const same_air = balance(data);
     auto more = lab();
-    more.gas.inlet.dry_mass_flow += nozzle.air_mass_flow;
+    more.gas.inlets.front().dry_mass_flow += nozzle.air_mass_flow;
     EXPECT_NEAR(same_air.eta, balance(more).eta, 1e-12) << "the same air through either inlet is the same";
 
     data.spray.nozzles[0].air_temperature = 293.15;
     data.spray.nozzles[0].air_humidity = 0;
     auto const cold = balance(data);
-    EXPECT_LT(cold.inlet_temperature, data.gas.inlet.temperature);
-    EXPECT_NEAR(cold.inlet_humidity * cold.dry_mass_flow, data.gas.inlet.dry_mass_flow * data.gas.inlet.humidity,
-                1e-15);
+    EXPECT_LT(cold.inlet_temperature, data.gas.inlets.front().temperature);
+    EXPECT_NEAR(cold.inlet_humidity * cold.dry_mass_flow,
+                data.gas.inlets.front().dry_mass_flow * data.gas.inlets.front().humidity, 1e-15);
 }
 
 TEST(Balance, flags_over_wetting)
