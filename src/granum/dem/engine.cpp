@@ -428,7 +428,7 @@ std::string Engine::kernel() const
 std::size_t Engine::bytes() const
 {
     auto const& in = *inside_;
-    return in.frame.bodies.capacity() * sizeof(kernel::Body) + in.pairs.bytes();
+    return in.frame.bodies.capacity() * sizeof(kernel::Body) + in.gas.bytes() + in.pairs.bytes();
 }
 par::Partition const& Engine::partition() const
 {

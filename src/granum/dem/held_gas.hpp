@@ -36,6 +36,8 @@ class HeldGas
     kernel::Drag* of_spins() { return spins_.empty() ? nullptr : spins_.data(); }
     //! @}
 
+    std::size_t bytes() const { return (velocities_.capacity() + spins_.capacity()) * sizeof(kernel::Drag); }
+
     //! What the gas gives to granules that do not move in `time` (s).
     static void give_at_rest(particle::Store& granules, double time);
 

@@ -54,20 +54,20 @@ double Engine::Inside::first_move(double dt)
 {
     double const half = 0.5 * dt;
     double fastest2 = 0;
+    constexpr double infinite = std::numeric_limits<double>::infinity();  // what is not finite asks for a single step
     for (std::size_t row = 0; row < frame.owned; ++row) {
         auto const& body = frame.bodies[row];
-        double const push = half * body.inverse_mass;
         kernel::Drag const* const drag = gas.of_velocities() ? gas.of_velocities() + row : nullptr;
+        double const push = drag ? drag->push : half * body.inverse_mass;
         double speed2 = 0;
         for (std::size_t d = 0; d < 3; ++d) {
-            double v = body.velocity[d] + (drag ? drag->push : push) * body.force[d];
+            double v = body.velocity[d] + push * body.force[d];
             v += drag ? drag->pull[d] - drag->share * v : half * settings.gravity[d];
             speed2 += v * v;
         }
-        if (!(speed2 <= fastest2)) fastest2 = speed2;
+        fastest2 = std::max(fastest2, std::isfinite(speed2) ? speed2 : infinite);
     }
-    double const moved = std::sqrt(fastest2) * dt;
-    return comm.max(std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity());
+    return comm.max(std::sqrt(fastest2) * dt);
 }
 
 // How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody
