@@ -29,15 +29,6 @@ std::size_t history_columns(Laws const& laws)
     };
     return count(laws.tangential) + count(laws.rolling);
 }
-
-// Whether gas acts on granules in this interval.
-bool feels_gas(particle::Store const& granules)
-{
-    if (!granules.groups.gas) return false;
-    for (std::size_t row = 0; row < granules.owned; ++row)
-        if (granules.drag_rate[row] != 0 || granules.gas_force[row] != Vec3{}) return true;
-    return false;
-}
 }
 
 Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicator const& communicator)
@@ -188,14 +179,6 @@ bool Engine::Inside::outgrown(double moved)
     return travelled + 4 * mine.moved > free;
 }
 
-void Engine::Inside::hold_frozen(particle::Store& granules, double dt) const
-{
-    if (!granules.groups.gas) return;
-    for (std::size_t row = 0; row < granules.owned; ++row)
-        granules.drag_impulse[row] +=
-            (granules.mass[row] * granules.drag_rate[row] * dt) * (granules.gas_velocity[row] - granules.velocity[row]);
-}
-
 Engine::Engine(Settings settings, par::Partition partition, par::Communicator const& comm)
     : inside_(std::make_unique<Inside>(std::move(settings), std::move(partition), comm))
 {
@@ -246,25 +229,29 @@ void Engine::resume(particle::Store& granules, std::span<ContactRecord const> co
 void Engine::advance(particle::Store& granules, double dt, int steps)
 {
     auto& in = *inside_;
+    if (steps <= 0) return;
     if (in.settings.frozen) {
-        for (int k = 0; k < steps; ++k) in.hold_frozen(granules, dt);
+        HeldGas::give_at_rest(granules, steps * dt);
         in.steps += steps;
         return;
     }
     in.frame.refresh(granules);
-    Inside::Motion const motion{granules, 0.5 * dt, feels_gas(granules)};
+    in.gas.begin(granules, in.settings.gravity, 0.5 * dt);
+    in.last_moved = in.first_move(dt);
     for (int k = 0; k < steps;) {
-        int const together = k == 0 ? 1 : in.steps_together(steps - k);
+        int const together = in.steps_together(steps - k);
         if (together > 1) {
-            in.sweep(motion, together);
+            in.sweep(dt, together, k == 0);
         } else {
             ++in.steps;
-            double const moved = in.move_all(motion, k == 0 ? 1 : 2, true);
+            double const moved = in.move_all(dt, k == 0 ? 1 : 2, true);
             in.stop_alone();
             in.time += dt;
             in.walls.go_to(in.time, dt);
             if (in.outgrown(moved) || in.walls.moved() > 0.5 * in.skin - in.growth) {
+                in.gas.before_rows_move(granules);
                 in.rebuild(granules);
+                in.gas.after_rows_moved(granules);
             } else if (in.comm.size() > 1) {
                 auto const timing = in.stopwatch.time(Stage::neighbours);
                 in.halo.begin_refresh(in.frame);
@@ -274,9 +261,10 @@ void Engine::advance(particle::Store& granules, double dt, int steps)
         }
         k += together;
     }
-    in.move_all(motion, 1, false);
+    in.move_all(dt, 1, false);
     in.watch.wall_force = in.walls.force();
     in.frame.give(granules);
+    in.gas.end(granules, 2 * steps);
 }
 
 void Engine::changed(particle::Store& granules)
@@ -440,7 +428,7 @@ std::string Engine::kernel() const
 std::size_t Engine::bytes() const
 {
     auto const& in = *inside_;
-    return in.frame.bodies.capacity() * sizeof(kernel::Body) + in.pairs.bytes();
+    return in.frame.bodies.capacity() * sizeof(kernel::Body) + in.gas.bytes() + in.pairs.bytes();
 }
 par::Partition const& Engine::partition() const
 {

@@ -1,12 +1,13 @@
 // The granule engine: contacts, walls and motion of soft spheres on this rank's part of space.
 //
-// One step is velocity Verlet with the drag of the held gas taken implicitly in each half kick:
-// v <- (v + h (F/m + rate u)) / (1 + h rate), h = dt/2, so that a stiff drag never limits the step and steady states
-// are exact. The impulse that the gas gave is summed in `drag_impulse`.
+// One step is velocity Verlet with the drag of the held gas taken implicitly in each half kick (held_gas.hpp), so that
+// a stiff drag never limits the step and steady states are exact. The impulses that the drag gave to velocities and
+// spins are summed in `drag_impulse` and `spin_impulse`; what granules with added mass take from the gas beside follows
+// from the change of their velocity.
 //
-// Without gas a state has the same bits on any number of ranks, with any neighbour list, in any order of rows and after
-// a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius and Watch::late_lists is 0.
-// Granules that leave a periodic domain come back at the other side in the same step.
+// With the gas held a state has the same bits on any number of ranks, with any neighbour list, in any order of rows and
+// after a restart (kernel/kernel.hpp says how), as long as no overlap exceeds a sixth of a radius and Watch::late_lists
+// is 0. Granules that leave a periodic domain come back at the other side in the same step.
 //
 // advance() does several steps in one sweep over the granules (layers.hpp) where no wall moves: a failure then stops
 // the run up to five steps after the one that its message names.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "granum/dem/engine.hpp"
+#include "granum/dem/held_gas.hpp"
 #include "granum/dem/wall_contacts.hpp"
 
 #include <unordered_map>
@@ -20,6 +21,7 @@ struct Engine::Inside
     kernel::Rules rules;
 
     Frame frame;
+    HeldGas gas;
     NeighbourSearch search;
     Candidates candidates;
     Layers layers;
@@ -53,16 +55,11 @@ struct Engine::Inside
                                            std::span<ContactRecord const> saved) const;
 
     // motion.cpp
-    struct Motion
-    {
-        particle::Store& granules;
-        double half;  // of a step, s
-        bool gas;     // acts on granules in this interval
-    };
-    double move(Motion const& motion, Layers::Part const& part, int kicks, bool drifts);
-    double move_all(Motion const& motion, int kicks, bool drifts);
+    double first_move(double dt);
+    double move(double dt, Layers::Part const& part, int kicks, bool drifts);
+    double move_all(double dt, int kicks, bool drifts);
     int steps_together(int left) const;
-    void sweep(Motion const& motion, int together);
+    void sweep(double dt, int together, bool first);
 
     // engine.cpp
     void agree_on_failure();
@@ -75,6 +72,5 @@ struct Engine::Inside
     void finish_forces(double dt, kernel::Seen const& seen);
     bool outgrown(double moved);
     double farthest() const;
-    void hold_frozen(particle::Store& granules, double dt) const;
 };
 }

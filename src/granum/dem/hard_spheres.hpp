@@ -1,8 +1,8 @@
 // The second granule engine: hard spheres, whose contacts last no time and which never overlap. One rank.
 //
 // Spheres fly on parabolas from collision to collision, with the gas held over the step as a constant acceleration of
-// each. Where a dense state makes collisions come without end, time-driven steps take over for a while by themselves;
-// the watch tells when and for how long.
+// each; added mass and what turns granules are not looked at. Where a dense state makes collisions come without end,
+// time-driven steps take over for a while by themselves; the watch tells when and for how long.
 #pragma once
 
 #include "granum/base/timer.hpp"

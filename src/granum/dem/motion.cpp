@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace granum::dem
 {
@@ -12,45 +13,25 @@ using base::Stage;
 namespace
 {
 constexpr int most_steps = Layers::most_steps;
-
-void kick_with_gas(Frame& frame, particle::Store& granules, std::span<std::uint32_t const> rows, Vec3 const& gravity,
-                   double half)
-{
-    for (auto const row : rows) {
-        auto& body = frame.bodies[row];
-        double const rate = granules.drag_rate[row], mass = granules.mass[row];
-        Vec3 const& gas = granules.gas_velocity[row];
-        Vec3 const pull = (Frame::vec(body.force) + granules.gas_force[row]) * body.inverse_mass + gravity;
-        Vec3 const velocity = (Frame::vec(body.velocity) + half * (pull + rate * gas)) * (1 / (1 + half * rate));
-        granules.drag_impulse[row] += (mass * half * rate) * (gas - velocity);
-        double const turning = half * 2.5 * body.inverse_mass / (body.radius * body.radius);
-        for (std::size_t d = 0; d < 3; ++d) {
-            body.velocity[d] = velocity[d];
-            body.spin[d] += turning * body.torque[d];
-        }
-    }
-}
 }
 
 // Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any
 // went.
-double Engine::Inside::move(Motion const& motion, Layers::Part const& part, int kicks, bool drifts)
+double Engine::Inside::move(double dt, Layers::Part const& part, int kicks, bool drifts)
 {
     auto const rows = layers.rows(part);
-    double const drift = drifts ? 2 * motion.half : 0;
-    if (motion.gas)
-        for (int kick = 0; kick < kicks; ++kick)
-            kick_with_gas(frame, motion.granules, rows, settings.gravity, motion.half);
-    if (motion.gas && !drifts) return 0;
+    double const drift = drifts ? dt : 0;
     kernel::MotionSeen seen;
     kernel->move({.bodies = frame.bodies.data(),
                   .rows = rows.data(),
                   .count = rows.size(),
                   .gravity = {settings.gravity.x, settings.gravity.y, settings.gravity.z},
-                  .half = motion.half,
+                  .half = 0.5 * dt,
                   .drift = drift,
-                  .kicks = motion.gas ? 0 : kicks,
-                  .clear = drifts},
+                  .kicks = kicks,
+                  .clear = drifts,
+                  .gas = gas.of_velocities(),
+                  .turn = gas.of_spins()},
                  seen);
     if (!seen.finite) find_non_finite();
     if (drifts && images.any)
@@ -58,32 +39,54 @@ double Engine::Inside::move(Motion const& motion, Layers::Part const& part, int 
     return std::sqrt(seen.fastest2) * drift;
 }
 
-double Engine::Inside::move_all(Motion const& motion, int kicks, bool drifts)
+double Engine::Inside::move_all(double dt, int kicks, bool drifts)
 {
     auto const timing = stopwatch.time(Stage::contacts);
     double moved = 0;
     for (std::size_t layer = 0; layer < layers.count(); ++layer)
-        moved = std::max(moved, move(motion, layers.whole(layer), kicks, drifts));
+        moved = std::max(moved, move(dt, layers.whole(layer), kicks, drifts));
     return moved;
 }
 
+// How far any granule of any rank will go in the first step of a call, where others may have changed its velocity and
+// the gas: what the first kick makes of it. Collective.
+double Engine::Inside::first_move(double dt)
+{
+    double const half = 0.5 * dt;
+    double fastest2 = 0;
+    constexpr double infinite = std::numeric_limits<double>::infinity();  // what is not finite asks for a single step
+    for (std::size_t row = 0; row < frame.owned; ++row) {
+        auto const& body = frame.bodies[row];
+        kernel::Drag const* const drag = gas.of_velocities() ? gas.of_velocities() + row : nullptr;
+        double const push = drag ? drag->push : half * body.inverse_mass;
+        double speed2 = 0;
+        for (std::size_t d = 0; d < 3; ++d) {
+            double v = body.velocity[d] + push * body.force[d];
+            v += drag ? drag->pull[d] - drag->share * v : half * settings.gravity[d];
+            speed2 += v * v;
+        }
+        fastest2 = std::max(fastest2, std::isfinite(speed2) ? speed2 : infinite);
+    }
+    return comm.max(std::sqrt(fastest2) * dt);
+}
+
 // How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody
-// looks at it on the way.
+// looks at it on the way; the last sweeps of a call share what is left alike.
 int Engine::Inside::steps_together(int left) const
 {
     if (walls.any_motion()) return 1;
     double const room = std::max(0.0, 0.5 * skin - growth - travelled), each = reserve * last_moved;
-    int const together = std::min(left, most_steps);
+    int const sweeps = (left + most_steps - 1) / most_steps, together = (left + sweeps - 1) / sweeps;
     return each * together <= room ? together : std::max(1, static_cast<int>(room / each));
 }
 
 // Does `together` steps in one sweep over the layers: layer k takes its step t when layer k + 1 has taken step t - 1.
 // Ranks exchange layer 0 in each step, which all of them take up first; while the last messages are on their way, the
 // other layers go on, strip by strip.
-void Engine::Inside::sweep(Motion const& motion, int together)
+// `first`: it begins a call of advance(), with one kick.
+void Engine::Inside::sweep(double dt, int together, bool first)
 {
     auto const timing = stopwatch.time(Stage::contacts);
-    double const dt = 2 * motion.half;
     std::array<kernel::Seen, most_steps> seen;
     std::array<double, most_steps + 1> moved{};  // by step; the last: whether something failed
     auto const steps_of_sweep = static_cast<std::size_t>(together);
@@ -92,7 +95,7 @@ void Engine::Inside::sweep(Motion const& motion, int together)
     bool const many = comm.size() > 1;
     auto const move_on = [&](Layers::Part const& part, std::size_t t) {
         steps = before + static_cast<long>(t) + 1;
-        moved[t] = std::max(moved[t], move(motion, part, 2, true));
+        moved[t] = std::max(moved[t], move(dt, part, first && t == 0 ? 1 : 2, true));
     };
     auto const take_exchanged = [&](std::size_t t) {
         if (many) halo.end_refresh(frame);

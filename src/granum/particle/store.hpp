@@ -25,16 +25,18 @@ using math::Vec3;
 //! What a column is there for.
 enum class Group : std::uint8_t
 {
-    core,     //!< motion and contacts: always there
-    parcel,   //!< how many real granules of which size a row stands for; absent: one, as large as the row
-    gas,      //!< what the gas does to the parcel
-    process,  //!< heat, liquid and layers
+    core,        //!< motion and contacts: always there
+    parcel,      //!< how many real granules of which size a row stands for; absent: one, as large as the row
+    gas,         //!< what the gas does to the parcel
+    process,     //!< heat, liquid and layers
+    added_mass,  //!< gas that the parcel carries along (virtual mass)
+    turning,     //!< what the gas does to the parcel's spin
 };
 
-//! The groups of columns that a store has besides the core.
+//! The groups of columns that a store has besides the core. The last two go with gas only.
 struct Groups
 {
-    bool parcel = true, gas = true, process = true;
+    bool parcel = true, gas = true, process = true, added_mass = false, turning = false;
 
     bool has(Group group) const
     {
@@ -45,6 +47,10 @@ struct Groups
                 return gas;
             case Group::process:
                 return process;
+            case Group::added_mass:
+                return added_mass;
+            case Group::turning:
+                return turning;
             case Group::core:
                 break;
         }
@@ -103,10 +109,15 @@ struct Store
 
     // What the gas does to the parcel during a coupling interval (set by `coupling`, read by `dem`).
     Column<Vec3> gas_velocity{{"gas_velocity", "m/s", false, false, Group::gas}};  //!< seen by the parcel
-    //! Drag coefficient over mass: dv/dt = rate (u - v).
+    //! Drag coefficient over mass and added mass: dv/dt = rate (u - v).
     Column<double> drag_rate{{"drag_rate", "1/s", false, false, Group::gas}};
-    Column<Vec3> gas_force{{"gas_force", "N", false, false, Group::gas}};  //!< pressure gradient, viscous force; held
-    Column<Vec3> drag_impulse{{"drag_impulse", "N s", false, false, Group::gas}};  //!< summed by `dem` meanwhile
+    Column<Vec3> gas_force{{"gas_force", "N", false, false, Group::gas}};  //!< pressure gradient, lift and so on; held
+    Column<Vec3> drag_impulse{{"drag_impulse", "N s", false, false, Group::gas}};      //!< summed by `dem` meanwhile
+    Column<double> added_mass{{"added_mass", "kg", false, false, Group::added_mass}};  //!< accelerated with the parcel
+    Column<Vec3> gas_spin{{"gas_spin", "rad/s", false, false, Group::turning}};        //!< half the gas's vorticity
+    //! Rotational drag over the moment of inertia: dw/dt = rate (gas_spin - w).
+    Column<double> spin_rate{{"spin_rate", "1/s", false, false, Group::turning}};
+    Column<Vec3> spin_impulse{{"spin_impulse", "N m s", false, false, Group::turning}};  //!< summed by `dem` meanwhile
 
     // The real granules that the parcel stands for.
     Column<double> count{{"count", "1", true, true, Group::parcel}};
@@ -145,6 +156,7 @@ void for_every_column(StoreType& store, Visitor&& visit)
     visit(store.radius), visit(store.mass), visit(store.material);
     visit(store.force), visit(store.torque);
     visit(store.gas_velocity), visit(store.drag_rate), visit(store.gas_force), visit(store.drag_impulse);
+    visit(store.added_mass), visit(store.gas_spin), visit(store.spin_rate), visit(store.spin_impulse);
     visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.core_diameter),
         visit(store.layer_mass);
     visit(store.layer_volume), visit(store.water), visit(store.solute), visit(store.enthalpy);

@@ -1,5 +1,6 @@
 // Every instruction set against the plain loops, over random contacts: forces and torques to 1e-12 of the force at an
-// overlap of a thousandth of the radius, energies and histories likewise, and the motion of rows.
+// overlap of a thousandth of the radius, energies and histories likewise; the motion
+// of rows to the bit.
 #include "granum/dem/frame.hpp"
 #include "granum/dem/kernel/kernel.hpp"
 
@@ -7,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace
 {
@@ -193,55 +195,124 @@ TEST(Kernels, are_named_fastest_first_and_end_with_the_plain_loops)
     EXPECT_EQ(kernel::find_kernel("altivec"), nullptr);
 }
 
-TEST(Kernels, move_rows_alike_and_see_a_number_that_is_not_finite)
+// Rows of a motion and what the gas does to them, at random; a third of them in still gas of no rate.
+struct Rows
 {
-    for (auto const* kernel : kernel::kernels())
-        for (int kicks : {0, 1, 2}) {
-            base::AlignedVector<kernel::Body> bodies(5), plain_bodies;
-            for (std::size_t row = 0; row < 5; ++row) {
-                auto& body = bodies[row];
-                body = {.position = {0.1 * static_cast<double>(row), 0.2, 0.3},
-                        .radius = 1e-3,
-                        .velocity = {1, -2, 0.5},
-                        .inverse_mass = 1e6,
-                        .spin = {10, 20, -30},
-                        .rounder = 1,
-                        .built = {},
-                        .built_radius = 0,
-                        .force = {1e-5, 2e-5, -1e-6 * static_cast<double>(row), 0},
-                        .torque = {1e-9, -2e-9, 3e-9, 0}};
-            }
-            plain_bodies = bodies;
-            std::array<std::uint32_t, 5> const rows{4, 0, 1, 3, 2};
-            kernel::Motion motion{.bodies = nullptr,
-                                  .rows = rows.data(),
-                                  .count = 5,
-                                  .gravity = {0, 1, -9.81},
-                                  .half = 5e-6,
-                                  .drift = 1e-5,
-                                  .kicks = kicks,
-                                  .clear = true};
-            kernel::MotionSeen seen, plain;
-            motion.bodies = bodies.data();
-            kernel->move(motion, seen);
-            motion.bodies = plain_bodies.data();
-            kernel::scalar().move(motion, plain);
-            for (std::size_t row = 0; row < 5; ++row) {
-                for (std::size_t d = 0; d < 3; ++d) {
-                    EXPECT_NEAR(bodies[row].position[d], plain_bodies[row].position[d], 1e-16);
-                    EXPECT_NEAR(bodies[row].velocity[d], plain_bodies[row].velocity[d], 1e-14);
-                    EXPECT_NEAR(bodies[row].spin[d], plain_bodies[row].spin[d], 1e-13);
-                    EXPECT_EQ(bodies[row].force[d], 0);
-                }
-                EXPECT_EQ(bodies[row].radius, 1e-3);
-                EXPECT_EQ(bodies[row].inverse_mass, 1e6);
-            }
-            EXPECT_TRUE(seen.finite);
-            EXPECT_GE(seen.fastest2, plain.fastest2 * (1 - 1e-12));
-            bodies[3].velocity[1] = std::nan("");
-            motion.bodies = bodies.data();
-            kernel->move(motion, seen);
-            EXPECT_FALSE(seen.finite) << kernel->name;
+    base::AlignedVector<kernel::Body> bodies;
+    base::AlignedVector<kernel::Drag> gas, turn;
+    std::vector<std::uint32_t> rows;
+    std::vector<bool> still;
+    double half = 0;
+    Vec3 gravity;
+
+    Rows()
+    {
+        auto const count = static_cast<std::uint32_t>(*rc::gen::inRange(1, 40));
+        half = std::pow(10, between(-7, -4));
+        gravity = 10 * direction();
+        for (std::uint32_t row = 0; row < count; ++row) {
+            Vec3 const x = between(0, 1) * direction(), v = between(0, 3) * direction(),
+                       w = between(0, 99) * direction(), f = between(0, 1e-3) * direction(),
+                       t = between(0, 1e-6) * direction();
+            double const mass = std::pow(10, between(-8, -3)), radius = between(1e-4, 1e-2);
+            bodies.push_back({.position = {x.x, x.y, x.z},
+                              .radius = radius,
+                              .velocity = {v.x, v.y, v.z},
+                              .inverse_mass = 1 / mass,
+                              .spin = {w.x, w.y, w.z},
+                              .rounder = 1,
+                              .built = {},
+                              .built_radius = 0,
+                              .force = {f.x, f.y, f.z, 0},
+                              .torque = {t.x, t.y, t.z, 0}});
+            bool const calm = *rc::gen::inRange(0, 3) == 0;
+            still.push_back(calm);
+            gas.push_back(pulled(calm ? 0 : between(0, 1), calm ? half * gravity : between(0, 3) * direction(),
+                                 half * (1 / mass)));
+            turn.push_back(pulled(calm ? 0 : between(0, 1), calm ? Vec3{} : between(0, 99) * direction(),
+                                  half * 2.5 * (1 / mass) / (radius * radius)));
+            rows.push_back(count - 1 - row);
         }
+    }
+
+    static kernel::Drag pulled(double share, Vec3 const& pull, double push)
+    {
+        return {.pull = {pull.x, pull.y, pull.z}, .share = share, .given = {}, .push = push};
+    }
+
+    kernel::MotionSeen move(kernel::Kernel const& kernel, int kicks, bool drifts, bool in_gas, bool turns)
+    {
+        kernel::MotionSeen seen;
+        kernel.move({.bodies = bodies.data(),
+                     .rows = rows.data(),
+                     .count = rows.size(),
+                     .gravity = {gravity.x, gravity.y, gravity.z},
+                     .half = half,
+                     .drift = drifts ? 2 * half : 0,
+                     .kicks = kicks,
+                     .clear = drifts,
+                     .gas = in_gas ? gas.data() : nullptr,
+                     .turn = turns ? turn.data() : nullptr},
+                    seen);
+        return seen;
+    }
+};
+
+template <class T>
+bool same(T const& a, T const& b)
+{
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+RC_GTEST_PROP(Kernels, move_rows_to_the_same_bits_with_gas_and_without, ())
+{
+    Rows const given;
+    for (auto const& [kicks, drifts] : {std::pair{1, false}, std::pair{1, true}, std::pair{2, true}})
+        for (int const gas : {0, 1, 2}) {
+            Rows plain = given;
+            auto const expected = plain.move(kernel::scalar(), kicks, drifts, gas > 0, gas > 1);
+            for (auto const* kernel : kernel::kernels()) {
+                Rows fast = given;
+                auto const seen = fast.move(*kernel, kicks, drifts, gas > 0, gas > 1);
+                for (std::size_t row = 0; row < given.bodies.size(); ++row) {
+                    RC_ASSERT(same(fast.bodies[row], plain.bodies[row]));
+                    RC_ASSERT(same(fast.gas[row], plain.gas[row]) && same(fast.turn[row], plain.turn[row]));
+                }
+                RC_ASSERT(seen.finite);
+                if (drifts) RC_ASSERT(seen.fastest2 >= expected.fastest2 * (1 - 1e-12));
+            }
+        }
+}
+
+RC_GTEST_PROP(Kernels, leave_rows_in_still_gas_of_no_rate_the_bits_of_no_gas, ())
+{
+    Rows const given;
+    int const kicks = *rc::gen::inRange(1, 3);
+    for (auto const* kernel : kernel::kernels()) {
+        Rows alone = given, in_gas = given;
+        alone.move(*kernel, kicks, true, false, false);
+        in_gas.move(*kernel, kicks, true, true, true);
+        for (std::size_t row = 0; row < given.bodies.size(); ++row) {
+            auto const &a = alone.bodies[row], &b = in_gas.bodies[row];
+            for (std::size_t d = 0; d < 3 && given.still[row]; ++d)
+                RC_ASSERT(a.position[d] == b.position[d] && a.velocity[d] == b.velocity[d] && a.spin[d] == b.spin[d]);
+        }
+    }
+}
+
+RC_GTEST_PROP(Kernels, see_a_number_that_is_not_finite, ())
+{
+    Rows const given;
+    auto const bad = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(given.bodies.size())));
+    auto const d = static_cast<std::size_t>(*rc::gen::inRange(0, 3));
+    bool const turns = *rc::gen::arbitrary<bool>();
+    for (auto const* kernel : kernel::kernels()) {
+        Rows rows = given;
+        (turns ? rows.bodies[bad].spin : rows.bodies[bad].velocity)[d] = std::nan("");
+        RC_ASSERT(!rows.move(*kernel, 2, true, true, true).finite);
+        rows = given;
+        (turns ? rows.bodies[bad].spin : rows.bodies[bad].velocity)[d] = std::nan("");
+        RC_ASSERT(!rows.move(*kernel, 1, true, false, false).finite);
+    }
 }
 }

@@ -1,4 +1,4 @@
-// Motion through the engine: falling, bouncing, sliding into rolling, rolling to a stop, energy, drag, refusals.
+// Motion through the engine: falling, bouncing, sliding into rolling, rolling to a stop, energy, refusals.
 #include "granum/base/error.hpp"
 #include "scene/granules.hpp"
 
@@ -111,49 +111,6 @@ TEST(Watch, sees_the_walls_carry_the_weight_of_a_settled_bed)
     double const weight = 500 * scene.granules.mass[0] * g;
     EXPECT_NEAR(scene.engine->watch().wall_force.z / weight, 1, 0.01);
     EXPECT_NEAR(scene.engine->watch().wall_force.x / weight, 0, 0.01);
-}
-
-TEST(Drag, brings_a_granule_to_the_steady_speed_exactly_however_stiff)
-{
-    scene::Scene scene(soft);
-    scene.settings.gravity = {0, 0, -g};
-    scene.add({}, {}, 1e-3, 1445);
-    scene.granules.drag_rate[0] = 1e7;
-    scene.granules.gas_velocity[0] = {0.5, 0, 1};
-    scene.prepare();
-    scene.run(50, 1e-3);
-    EXPECT_NEAR(scene.granules.velocity[0].x, 0.5, 1e-12);
-    EXPECT_NEAR(scene.granules.velocity[0].z, 1 - g / 1e7, 1e-12);
-}
-
-TEST(Drag, impulse_is_the_momentum_gained)
-{
-    scene::Scene scene(soft);
-    scene.settings.gravity = {0, 0, -g};
-    scene.add({}, {0.1, -0.2, 0.3}, 1e-3, 1445);
-    scene.granules.drag_rate[0] = 300;
-    scene.granules.gas_velocity[0] = {2, 1, 3};
-    scene.granules.gas_force[0] = {1e-6, 0, 0};
-    scene.prepare();
-    Vec3 const before = scene.momentum();
-    scene.run(1000, 1e-5);
-    double const mass = scene.granules.mass[0];
-    Vec3 const others = (mass * scene.settings.gravity + scene.granules.gas_force[0]) * 1e-2;
-    Vec3 const gained = scene.momentum() - before - others;
-    for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(scene.granules.drag_impulse[0][d] / gained[d], 1, 1e-12);
-}
-
-TEST(FrozenGranules, stay_and_still_tell_what_the_gas_gives)
-{
-    scene::Scene scene(soft);
-    scene.add({0.1, 0, 0}, {}, 1e-3, 1445);
-    scene.granules.drag_rate[0] = 10;
-    scene.granules.gas_velocity[0] = {0, 0, 2};
-    scene.settings.frozen = true;
-    scene.prepare();
-    scene.run(100, 1e-4);
-    EXPECT_EQ(scene.granules.position[0], (Vec3{0.1, 0, 0}));
-    EXPECT_NEAR(scene.granules.drag_impulse[0].z, scene.granules.mass[0] * 10 * 2 * 1e-2, 1e-15);
 }
 
 TEST(PeriodicBox, keeps_momentum_and_lets_granules_meet_across_every_face)

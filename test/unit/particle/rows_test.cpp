@@ -13,6 +13,7 @@ using namespace granum::particle;
 TEST(Store, for_each_column_lists_every_column_once)
 {
     Store granules;
+    granules.keep({.added_mass = true, .turning = true});
     std::set<std::string_view> names;
     std::size_t columns = 0, bytes = 0;
     for_each_column(granules, [&](auto const& column) {
@@ -44,6 +45,10 @@ TEST(Store, without_a_group_spends_no_memory_on_it_and_knows_what_a_row_stands_f
     granules.keep({.parcel = true, .gas = true, .process = false});
     EXPECT_EQ(granules.drag_rate.values, std::vector<double>(5));
     EXPECT_TRUE(granules.temperature.values.empty());
+    EXPECT_TRUE(granules.added_mass.values.empty() && granules.spin_rate.values.empty());
+    granules.keep({.added_mass = true, .turning = true});
+    EXPECT_EQ(granules.added_mass.values, std::vector<double>(5));
+    EXPECT_EQ(granules.spin_impulse.values.size(), 5u);
 }
 
 #ifdef GRANUM_CHECKS
@@ -60,6 +65,7 @@ TEST(Store, refuses_to_read_a_column_it_does_not_have)
 Store numbered(std::size_t rows)
 {
     Store granules;
+    granules.keep({.added_mass = true, .turning = true});
     granules.resize(rows);
     granules.owned = rows;
     double next = 1;
@@ -87,6 +93,7 @@ TEST(Rows, packed_and_unpacked_are_the_same)
 {
     Store const from = numbered(3);
     Store to;
+    to.keep(from.groups);
     to.resize(3);
     std::vector<std::byte> bytes;
     for (std::size_t row : {2u, 0u}) pack_row(from, row, Columns::all, bytes);

@@ -1,4 +1,5 @@
-// The vectorised loops over contacts and granules. Included by one source per instruction set, see lanes.hpp.
+// The vectorised loops over contacts, and of the search for them. Included by one source per instruction set, see
+// lanes.hpp.
 #include "granum/dem/kernel/kernel.hpp"
 #include "granum/dem/kernel/lanes.hpp"
 
@@ -530,62 +531,6 @@ void look(Look& in, Span const* spans, std::size_t count)
         }
     in.near_count = near;
     in.far_count = far;
-}
-
-template <int Kicks, bool Drifts>
-HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
-{
-    // Four numbers at a time: the fourth of a velocity is the inverse mass, of a spin the rounder, of a position the
-    // radius, and what is added to them is zero.
-    hn::CappedTag<double, 4> const d;
-    std::size_t const lanes = hn::Lanes(d);
-    alignas(32) double const pull[4] = {in.gravity[0], in.gravity[1], in.gravity[2], 0};
-    alignas(32) double const drift[4] = {in.drift, in.drift, in.drift, 0};
-    auto const half = hn::Set(d, in.half), none = hn::Zero(d);
-    for (std::size_t c = 0; c < 4; c += lanes) {
-        auto const gravity = hn::Load(d, pull + c), along = hn::Load(d, drift + c);
-        auto fastest = none, odd = none;
-        for (std::size_t k = 0; k < in.count; ++k) {
-            Body& body = in.bodies[in.rows[k]];
-            auto const acceleration = hn::MulAdd(hn::Load(d, body.force + c), hn::Set(d, body.inverse_mass), gravity);
-            auto const turning = hn::Set(d, in.half * 2.5 * body.inverse_mass / (body.radius * body.radius));
-            auto velocity = hn::Load(d, body.velocity + c), spin = hn::Load(d, body.spin + c);
-            auto const torque = hn::Load(d, body.torque + c);
-            for (int kick = 0; kick < Kicks; ++kick) {
-                velocity = hn::MulAdd(half, acceleration, velocity);
-                spin = hn::MulAdd(turning, torque, spin);
-            }
-            hn::Store(spin, d, body.spin + c);
-            if constexpr (Drifts) {
-                hn::Store(hn::MulAdd(along, velocity, hn::Load(d, body.position + c)), d, body.position + c);
-                auto const square = hn::Mul(velocity, velocity);
-                fastest = hn::Max(fastest, square);
-                odd = hn::MulAdd(hn::Add(square, spin), none, odd);  // zero as long as all is finite
-            }
-            hn::Store(velocity, d, body.velocity + c);
-            if (in.clear) hn::Store(none, d, body.force + c), hn::Store(none, d, body.torque + c);
-        }
-        if constexpr (Drifts) {
-            alignas(32) double each[4], miss[4];
-            hn::Store(fastest, d, each), hn::Store(odd, d, miss);
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                if (c + lane < 3) seen.fastest2 += each[lane];
-                seen.finite = seen.finite && miss[lane] == 0;
-            }
-        }
-    }
-}
-
-void move(Motion const& in, MotionSeen& seen)
-{
-    if (in.kicks == 0)
-        move_rows<0, true>(in, seen);
-    else if (in.kicks == 2)
-        move_rows<2, true>(in, seen);
-    else if (in.drift != 0)
-        move_rows<1, true>(in, seen);
-    else
-        move_rows<1, false>(in, seen);
 }
 }
 }

@@ -136,17 +136,30 @@ struct WallPass
     double* torque[3];  //!< on the granule about its centre, N m
 };
 
-//! A pass over `count` of the rows that moves them on: `kicks` half steps of velocity, then a drift of position.
+//! What the held gas and gravity do to the velocity of a granule in a kick, or the gas to its spin: with the force F of
+//! the contacts, w = v + push F, then v = w + (pull - share w). In the terms of dem/held_gas.hpp,
+//! share = h r / (1 + h r), pull = share u + h A / (1 + h r), push = h / (m + a).
+struct alignas(64) Drag
+{
+    double pull[3], share;
+    double given[3];  //!< sum of all pull - share w
+    double push;
+};
+
+//! A pass over `count` of the rows that moves them on: `kicks` half steps of velocity, then a drift of position. All
+//! kernels round alike here, and a gas that does nothing leaves the bits of no gas.
 struct Motion
 {
     Body* bodies;
     std::uint32_t const* rows;
     std::size_t count;
-    double gravity[3];
-    double half;   //!< s, of one kick
-    double drift;  //!< s
-    int kicks;     //!< 0, 1 or 2
-    bool clear;    //!< sets forces and torques to zero behind it
+    double gravity[3];     //!< m/s2; in `gas` already
+    double half;           //!< s, of one kick
+    double drift;          //!< s
+    int kicks;             //!< 1 or 2
+    bool clear;            //!< sets forces and torques to zero behind it
+    Drag* gas = nullptr;   //!< of each row on velocities, or none
+    Drag* turn = nullptr;  //!< of each row on spins; only with `gas`
 };
 struct MotionSeen
 {

@@ -1,5 +1,6 @@
 #define GRANUM_KERNEL avx2_kernel
 #include "granum/dem/kernel/contact_loops.hpp"
+#include "granum/dem/kernel/motion_loop.hpp"
 
 namespace granum::dem::kernel
 {

@@ -1,5 +1,6 @@
 #define GRANUM_KERNEL sse4_kernel
 #include "granum/dem/kernel/contact_loops.hpp"
+#include "granum/dem/kernel/motion_loop.hpp"
 
 namespace granum::dem::kernel
 {

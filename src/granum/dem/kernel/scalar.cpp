@@ -206,21 +206,32 @@ void walls(WallPass const& in, Seen& seen)
         law::contact::TangentialLaws{}, law::contact::RollingLaws{});
 }
 
+// One number of a velocity or a spin, pushed by the contacts, then pulled by the gas.
+double kicked(double motion, double force, Drag& gas, std::size_t d)
+{
+    double const pushed = motion + gas.push * force, gain = gas.pull[d] - gas.share * pushed;
+    gas.given[d] += gain;
+    return pushed + gain;
+}
+
 void move(Motion const& in, MotionSeen& seen)
 {
     for (std::size_t k = 0; k < in.count; ++k) {
-        Body& body = in.bodies[in.rows[k]];
+        auto const row = in.rows[k];
+        Body& body = in.bodies[row];
+        double const push = in.half * body.inverse_mass;
         double const turning = in.half * 2.5 * body.inverse_mass / (body.radius * body.radius);
         double speed2 = 0;
         for (std::size_t d = 0; d < 3; ++d) {
-            double const acceleration = body.force[d] * body.inverse_mass + in.gravity[d];
+            double &velocity = body.velocity[d], &spin = body.spin[d];
             for (int kick = 0; kick < in.kicks; ++kick) {
-                body.velocity[d] += in.half * acceleration;
-                body.spin[d] += turning * body.torque[d];
+                velocity = in.gas ? kicked(velocity, body.force[d], in.gas[row], d)
+                                  : velocity + push * body.force[d] + in.half * in.gravity[d];
+                spin = in.turn ? kicked(spin, body.torque[d], in.turn[row], d) : spin + turning * body.torque[d];
             }
-            body.position[d] += in.drift * body.velocity[d];
-            speed2 += body.velocity[d] * body.velocity[d];
-            seen.finite = seen.finite && std::isfinite(body.velocity[d]) && std::isfinite(body.spin[d]);
+            body.position[d] += in.drift * velocity;
+            speed2 += velocity * velocity;
+            seen.finite = seen.finite && std::isfinite(velocity) && std::isfinite(spin);
             if (in.clear) body.force[d] = body.torque[d] = 0;
         }
         seen.fastest2 = std::max(seen.fastest2, speed2);
