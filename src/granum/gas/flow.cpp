@@ -18,8 +18,9 @@ constexpr int most_trials = 4;
 
 void Sources::clear(grid::Grid const& grid)
 {
-    for (Field* field : {&drag_coefficient, &drag_momentum[0], &drag_momentum[1], &drag_momentum[2], &force[0],
-                         &force[1], &force[2], &mass, &vapour, &enthalpy, &heat_coefficient, &heat_value})
+    for (Field* field :
+         {&drag_coefficient, &drag_momentum[0], &drag_momentum[1], &drag_momentum[2], &force[0], &force[1], &force[2],
+          &couple[0], &couple[1], &couple[2], &mass, &vapour, &enthalpy, &heat_coefficient, &heat_value})
         field->assign(grid.size(), 0.0);
 }
 
@@ -176,38 +177,6 @@ double Solver::courant_step(State const& state, double courant) const
     }
     rate = in.comm.max(rate);
     return rate > 0 ? courant / rate : std::numeric_limits<double>::infinity();
-}
-
-std::array<Field, 3> Solver::cell_velocity(State const& state) const
-{
-    Inside const& in = *inside_;
-    std::array<Field, 3> means{in.grid.make_field(), in.grid.make_field(), in.grid.make_field()};
-    for (std::size_t d = 0; d < 3; ++d) {
-        auto const& u = state.velocity[d];
-        for (auto const& run : in.cells)
-            for (Index c = run.first; c < run.end; ++c) means[d][c] = 0.5 * (u[c] + u[in.next(c, d)]);
-    }
-    in.refresh({&means[0], &means[1], &means[2]});
-    return means;
-}
-
-std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
-{
-    Inside const& in = *inside_;
-    FaceField slope = in.grid.make_face_field();
-    for (std::size_t d = 0; d < 3; ++d)
-        for (auto const& run : in.faces[d])
-            for (Index q = run.first; q < run.end; ++q)
-                slope[d][q] =
-                    (state.pressure[q] - state.pressure[in.before(q, d)]) * in.per_gap[d][q] - in.stress[d][q];
-    in.refresh({&slope[0], &slope[1], &slope[2]});
-    std::array<Field, 3> means{in.grid.make_field(), in.grid.make_field(), in.grid.make_field()};
-    for (std::size_t d = 0; d < 3; ++d)
-        for (auto const& run : in.cells)
-            for (Index c = run.first; c < run.end; ++c)
-                means[d][c] = in.weights.lower[d][c] * slope[d][c] + in.weights.upper[d][c] * slope[d][in.next(c, d)];
-    in.refresh({&means[0], &means[1], &means[2]});
-    return means;
 }
 
 Vec3 Solver::momentum(State const& state) const

@@ -50,6 +50,7 @@ struct Sources
     Field drag_coefficient;              //!< kg/s: sum of the parcels' effective coefficients
     std::array<Field, 3> drag_momentum;  //!< N: sum of coefficient times parcel velocity
     std::array<Field, 3> force;          //!< N, explicit: nozzle, droplets, carried drag
+    std::array<Field, 3> couple;         //!< N m, explicit: torque on the gas
     Field mass, vapour;                  //!< kg/s; gas enters at rest, its momentum belongs into `force`
     Field enthalpy;                      //!< W, explicit, with the enthalpy of what enters
     Field heat_coefficient;              //!< W/K, implicit: Q = heat_value - heat_coefficient (T - 273.15)
@@ -101,6 +102,10 @@ class Solver
     std::array<Field, 3> cell_pressure_gradient(State const& state) const;
     //! Velocity of the cells, m/s: means of their two faces, ghosts filled. Collective.
     std::array<Field, 3> cell_velocity(State const& state) const;
+    //! Curl of the velocity in the cells, 1/s, ghosts filled. Collective.
+    std::array<Field, 3> cell_vorticity(State const& state) const;
+    //! Acceleration Du/Dt of the gas in the cells in the last step, m/s2, ghosts filled. Collective.
+    std::array<Field, 3> cell_acceleration(State const& state) const;
 
     //! Temperature that the implicit heat term of the last step was taken at, K: the gas received
     //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by what convection of second order

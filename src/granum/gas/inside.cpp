@@ -7,8 +7,7 @@
 
 namespace granum::gas
 {
-Rows::Rows(grid::Grid const& grid)
-    : inverse(grid.make_field()), right(grid.make_field()), alone(grid.make_field()), partial(grid.make_field())
+Rows::Rows(grid::Grid const& grid) : inverse(grid.make_field()), right(grid.make_field()), partial(grid.make_field())
 {
     for (auto& field : coupling) field = grid.make_field();
 }
@@ -100,6 +99,7 @@ SharedSources Solver::Inside::share(Sources const& sources) const
         if (settings.push[d] != 0)
             for (Index c = 0; c < gas_volume.size(); ++c)
                 shared.drag_momentum[d][c] += settings.push[d] * gas_volume[c];
+    add_couples(sources.couple, shared.force);
     refresh({&shared.drag_coefficient, &shared.mass, &shared.drag_momentum[0], &shared.drag_momentum[1],
              &shared.drag_momentum[2], &shared.force[0], &shared.force[1], &shared.force[2]});
     return shared;

@@ -44,6 +44,7 @@ struct WallPiece
     Index cell;
     std::size_t e;
     std::size_t wall;  //!< of Settings::walls
+    bool upper;        //!< whether the gas lies below it
     double area;       //!< m2
     double distance;   //!< of the cell's gas from it, m
     Vec3 position;     //!< m
@@ -60,7 +61,6 @@ struct EndRow
 struct Rows
 {
     Field inverse, right;           //!< 1 / centre; right side without neighbours
-    Field alone;                    //!< part of the centre without neighbour: what enters at rest
     std::array<Field, 6> coupling;  //!< lower and upper neighbour by direction
     std::vector<EndRow> ends;
     Field partial;  //!< scratch of a sweep
@@ -98,6 +98,9 @@ struct WallExchange
     Index cell;
     double conductance, outside;  //!< W/K, degC
 };
+
+//! Slopes du_d/dx_e of the cells, [d][e], 1/s.
+using Gradient = std::array<std::array<Field, 3>, 3>;
 
 struct Solver::Inside
 {
@@ -159,6 +162,10 @@ struct Solver::Inside
     void find_walls();
 
     SharedSources share(Sources const& sources) const;
+    //! `mean`: cell_velocity of the state. Without ghosts.
+    Gradient velocity_gradient(State const& state, std::array<Field, 3> const& mean) const;
+    //! Adds the force on the gas of owned cells, N, that torques make.
+    void add_couples(std::array<Field, 3> const& couple, std::array<Field, 3>& force) const;
     void set_inlet_velocities(State& state) const;
     //! Takes the velocities on; they are not yet free of sources of mass.
     void predict(State& state, SharedSources const& sources, double dt);

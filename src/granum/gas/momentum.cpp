@@ -3,11 +3,11 @@
 //
 // Control volumes are the halves of the two cells at a face, so their mass fluxes are means of the cells' fluxes and
 // obey the cells' continuity. Convection takes the fluxes of the middle of the step, extrapolated from the last two,
-// and has continuity subtracted: uniform flow stays uniform whatever the fluxes do. The mass that goes with them, that
-// of the middle of the step, makes steps of equal length pass the momentum on without loss. After the sweeps what
-// passes between control volumes is evaluated once more, so that what leaves one enters the next to round-off:
-// convection, brought to second order (limit.hpp), and then viscosity with what came of it, at both ends of the step as
-// far as the step is not long against its time.
+// and what a face starts from is less by what they bring: uniform flow stays uniform whatever the fluxes do. The mass
+// at the end, that of the middle of the step, makes steps of equal length pass the momentum on without loss. After the
+// sweeps what passes between control volumes is evaluated once more, so that what leaves one enters the next to
+// round-off: convection, brought to second order (limit.hpp), and then viscosity with what came of it, at both ends of
+// the step as far as the step is not long against its time.
 //
 // The stress is mu (grad u + grad u^T); its isotropic part belongs to the pressure.
 #include "granum/base/vectorised.hpp"
@@ -35,7 +35,7 @@ struct Loop
     double const *inertia, *mass, *gas, *volume, *p, *per_gap, *drag, *carried, *force, *below, *above, *source,
         *friction, *dragged, *viscous, *u, *temperature;
     std::array<double const*, 3> flux, coupled, reach, velocity, area, per_gap_of;
-    double *mobility, *inverse, *right, *alone, *stress;
+    double *mobility, *inverse, *right, *stress;
     std::array<double*, 6> coupling;
     // Once the upwind solution is there:
     double const* x;
@@ -46,6 +46,10 @@ struct Loop
 inline double positive(double x)
 {
     return x > 0 ? x : 0;
+}
+inline double larger(double x, double y)
+{
+    return x > y ? x : y;
 }
 
 //! Viscosity times area over distance of a link, and the share of it that is taken at the beginning of the step.
@@ -59,7 +63,9 @@ inline Viscous viscous_link(Loop const& l, std::size_t e, bool along, Index q)
     double const mu =
         along ? l.viscous[low] : 0.25 * (l.viscous[low] + l.viscous[q] + l.viscous[low - se] + l.viscous[q - se]);
     double const whole = mu * l.reach[e][q];
-    double const here = l.inertia[low] + l.inertia[q], there = l.inertia[low - se] + l.inertia[q - se];
+    // Along the component the cell between both nodes stands for them: cells beyond are not all known.
+    double const here = l.inertia[low] + (along ? l.inertia[low] : l.inertia[q]);
+    double const there = along ? here : l.inertia[low - se] + l.inertia[q - se];
     double const lighter = 0.5 * (here < there ? here : there);
     double const fast = l.dt * whole, room = longest_explicit * lighter;
     return {whole, 0.5 * fast > room ? room / fast : 0.5};
@@ -80,22 +86,20 @@ template <std::size_t d>
 inline void assemble_one(Loop const& l, Index q)
 {
     Index const low = q - static_cast<Index>(l.sd);
-    double const mass = 0.5 * (l.inertia[low] + l.inertia[q]), gas = 0.5 * (l.gas[low] + l.gas[q]);
+    double const gas = 0.5 * (l.gas[low] + l.gas[q]);
     double const volume = l.volume[q], u = l.u[q];
     double const under_pressure = l.model_b > 0 ? volume : gas, eps = l.model_b > 0 ? 1 : gas / volume;
     double const drag = 0.5 * (l.drag[low] + l.drag[q]);
     double const push = 0.5 * (l.carried[low] + l.carried[q]) + l.below[low] * l.force[low] + l.above[q] * l.force[q];
     double const friction = 0.5 * eps * (l.friction[low] + l.friction[q]);
     double const dragged = 0.5 * eps * (l.dragged[low] + l.dragged[q]);
-    double const inertia = mass * l.per_dt;
-    double const mobility = inertia + drag + friction;
     double const slope = (l.p[q] - l.p[low]) * l.per_gap[q];
     // In model B the gas carries its weight over the whole volume: the granules' buoyancy is its reaction.
     double weight = 0.5 * (l.mass[low] + l.mass[q]) * l.gravity;
     weight = l.model_b > 0 ? weight * volume / gas : weight;
     weight *= 1 - l.warm * (0.5 * (l.temperature[low] + l.temperature[q]) - l.reference);
 
-    double sum = 0, early = 0, stress = 0;
+    double sum = 0, early = 0, stress = 0, arrives = 0;
     auto const link = [&](std::size_t e, Index at, Index beside, bool upper, double* out) {
         double const through = l.flux[e][at];
         auto const [whole, share] = viscous_link(l, e, e == d, at);
@@ -103,6 +107,7 @@ inline void assemble_one(Loop const& l, Index q)
         double const passed = eps * (1 - share) * whole;
         out[q] = enters + passed;
         sum += enters + passed;
+        arrives += (upper ? -through : through) * l.coupled[e][at];
         double const at_start = share * whole * (l.u[beside] - u);
         early += at_start;
         double const across = turned(l, e, e == d, at);
@@ -113,12 +118,16 @@ inline void assemble_one(Loop const& l, Index q)
         link(e, q, q - se, false, l.coupling[2 * e]);
         link(e, q + se, q + se, true, l.coupling[2 * e + 1]);
     }
-    double const alone = positive(0.5 * (l.source[low] + l.source[q]));  // enters at rest
-    l.mobility[q] = mobility;
-    l.alone[q] = alone;
+    double const source = 0.5 * (l.source[low] + l.source[q]);
+    double const alone = positive(source);  // enters at rest
+    // The mass that the velocity at the end of the step goes with, and that at its beginning: by what arrives less.
+    double after = 0.5 * (l.inertia[low] + l.inertia[q]) * l.per_dt;
+    double const before = larger(after - (arrives + source), 0.25 * (l.mass[low] + l.mass[q]) * l.per_dt);
+    after = before + (arrives + source);
+    l.mobility[q] = after + drag + friction;
     l.stress[q] = early + stress;
-    l.right[q] = inertia * u + push + weight + dragged - under_pressure * slope + eps * (early + stress);
-    l.inverse[q] = 1 / (mobility + alone + sum);
+    l.right[q] = before * u + push + weight + dragged - under_pressure * slope + eps * (early + stress);
+    l.inverse[q] = 1 / (before + drag + friction + alone + sum);
 }
 
 //! Once convection is known, in its fluxes of second order: the equation that is left is that of viscosity.
@@ -128,10 +137,12 @@ inline void convect_one(Loop const& l, Index q)
     Index const low = q - static_cast<Index>(l.sd);
     double const eps = l.model_b > 0 ? 1 : 0.5 * (l.gas[low] + l.gas[q]) / l.volume[q];
     double const x = l.x[q];
-    double convected = -l.alone[q] * x, sum = 0;
+    double const source = 0.5 * (l.source[low] + l.source[q]);
+    double convected = -positive(-source) * x, sum = 0;
     auto const link = [&](std::size_t e, Index at, Index beside, bool upper, double* coupling) {
         double const through = l.flux[e][at];
-        convected += positive(upper ? -through : through) * l.coupled[e][at] * (l.x[beside] - x);
+        double const inwards = upper ? -through : through;
+        convected += l.coupled[e][at] * (positive(inwards) * l.x[beside] - positive(-inwards) * x);
         auto const [whole, share] = viscous_link(l, e, e == d, at);
         coupling[q] = eps * (1 - share) * whole;
         sum += coupling[q];
@@ -323,7 +334,6 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
               .mobility = mobility[d].data(),
               .inverse = rows.inverse.data(),
               .right = rows.right.data(),
-              .alone = rows.alone.data(),
               .stress = stress[d].data(),
               .coupling = {},
               .x = x.data(),
@@ -336,7 +346,7 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
     for (auto const& edge : inlet_edges[d]) {
         auto const& flux = middle_flux[edge.e];
         double const enters = positive(edge.sign * 0.5 * (flux[edge.first] + flux[edge.second]));
-        rows.alone[edge.face] += enters;
+        mobility[d][edge.face] += enters;
         rows.inverse[edge.face] = 1 / (1 / rows.inverse[edge.face] + enters);
     }
     make_end_rows(d, state, dt);

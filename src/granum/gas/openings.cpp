@@ -55,8 +55,8 @@ void Solver::Inside::find_openings()
             area[at.direction][face] = open;
             std::array<int, 3> within = cell;
             if (at.upper) --within[at.direction];
-            double const half = 0.5 * grid.axes[at.direction].width(within[at.direction]);
-            list.push_back({face, inside, at.direction, at.upper, number, open, half, share * open / full});
+            double const to_centre = 0.5 * grid.axes[at.direction].width(within[at.direction]);
+            list.push_back({face, inside, at.direction, at.upper, number, open, to_centre, share * open / full});
             sum += inlet ? list.back().share : open;
         });
         sum = comm.sum(sum);
@@ -168,7 +168,7 @@ void Solver::Inside::find_walls()
                 x[e] = grid.axes[e].face(cell[e] + (upper ? 1 : 0));
                 std::size_t const number = settings.wall_at ? settings.wall_at(x) : 0;
                 base::require(number < settings.walls.size(), "gas: wall {} of {}", number, settings.walls.size());
-                wall_pieces.push_back({c, e, number, wall, distance, x});
+                wall_pieces.push_back({c, e, number, upper, wall, distance, x});
             };
             if (low == 0 && high == 0) {
                 for (bool const upper : {false, true}) add(upper, open / width, 0.5 * width);

@@ -82,18 +82,18 @@ void Solver::Inside::sharpen(std::vector<Run> const& nodes, Links const& links, 
     auto const pointers = [](std::array<Field const*, 3> const& fields) {
         return std::array<double const*, 3>{fields[0]->data(), fields[1]->data(), fields[2]->data()};
     };
-    auto const flux = pointers(links.flux), coupled = pointers(links.coupled), share = pointers(links.share);
+    auto const flux = pointers(links.flux), linked = pointers(links.coupled), share = pointers(links.share);
     auto& added = limit.added;
     limit.clear();
     for (auto const& run : nodes)
         for (std::size_t e = 0; e < 3; ++e)
-            centre(run.first, run.end, grid.strides[e], flux[e], coupled[e], share[e], x.data(), earlier.data(),
+            centre(run.first, run.end, grid.strides[e], flux[e], linked[e], share[e], x.data(), earlier.data(),
                    added[e].data());
     refresh({&added[0], &added[1], &added[2]});
 
     Matrix matrix{.s = grid.strides,
                   .flux = flux,
-                  .coupled = coupled,
+                  .coupled = linked,
                   .added = {added[0].data(), added[1].data(), added[2].data()},
                   .whole = {},
                   .inverse = rows.inverse.data(),
@@ -109,6 +109,6 @@ void Solver::Inside::sharpen(std::vector<Run> const& nodes, Links const& links, 
     sweep(halves, nodes, change, sweep_tolerance, most_sweeps);
     for (auto const& run : nodes)
         for (std::size_t e = 0; e < 3; ++e)
-            carry_on(run.first, run.end, grid.strides[e], flux[e], coupled[e], change.data(), added[e].data());
+            carry_on(run.first, run.end, grid.strides[e], flux[e], linked[e], change.data(), added[e].data());
 }
 }

@@ -162,12 +162,41 @@ particle::Groups column_groups(Case const& data)
         std::any_of(granules.batches.begin(), granules.batches.end(),
                     [](auto const& b) { return b.parcel_ratio > 1; }) ||
         std::any_of(granules.given.begin(), granules.given.end(), [](auto const& one) { return one.count != 1; });
-    return {.parcel = gas || parcels, .gas = gas, .process = gas};
+    auto const& forces = data.gas.forces;
+    return {.parcel = gas || parcels,
+            .gas = gas,
+            .process = gas,
+            .added_mass = gas && (forces.virtual_mass != "none" || forces.history > 0),
+            .turning = gas && forces.torque != "none"};
+}
+
+double smoothing(Case const& data)
+{
+    // As wide as cells of three diameters make the weights: from there on results hardly depend on the cells.
+    constexpr double diameters = 1.22;
+    return data.gas.smoothing.value_or(diameters * 2 * largest_radius(data));
+}
+
+coupling::Scheme mapping_scheme(Case const& data)
+{
+    return data.gas.mapping == "centre"    ? coupling::Scheme::centre
+           : data.gas.mapping == "divided" ? coupling::Scheme::divided
+                                           : coupling::Scheme::kernel;
 }
 
 coupling::Laws exchange_laws(Case const& data)
 {
-    return {named<law::drag::All>(data.gas.drag), named<law::heat::All>(data.gas.heat_transfer)};
+    auto const& forces = data.gas.forces;
+    return {.drag = named<law::drag::All>(data.gas.drag),
+            .heat = named<law::heat::All>(data.gas.heat_transfer),
+            .virtual_mass = named<law::force::VirtualMassLaws>(forces.virtual_mass),
+            .shear_lift = named<law::force::ShearLiftLaws>(forces.shear_lift),
+            .spin_lift = named<law::force::SpinLiftLaws>(forces.spin_lift),
+            .torque = named<law::force::TorqueLaws>(forces.torque),
+            .history = forces.history > 0,
+            .polydisperse = forces.polydisperse,
+            .filtered = forces.filtered,
+            .emissivity = data.granules.emissivity};
 }
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)

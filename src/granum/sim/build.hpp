@@ -30,6 +30,9 @@ grid::Lines gas_lines(Case const& data);       //!< faces of the gas cells
 //! What passes heat between granules that touch.
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm);
 coupling::Laws exchange_laws(Case const& data);
+//! Standard deviation of what granules and gas share, m.
+double smoothing(Case const& data);
+coupling::Scheme mapping_scheme(Case const& data);
 
 spray::Liquid spray_liquid(Case const& data);
 std::vector<spray::Nozzle> nozzles(Case const& data);

@@ -98,6 +98,7 @@ struct GranulesCase
     double mass = 0;                //!< kg of the batch; 0 where granules are given one by one
     double parcel_ratio = 1;        //!< l: a parcel stands for l^3 granules
     double heat_capacity = 1400;    //!< J/kg/K of the dry core and layer
+    double emissivity = 0;          //!< of the surface; 0: no radiation
     std::string start = "settled";  //!< "settled" (random packing that fell under gravity), "loose", "lattice", "given"
     double spacing = 1.1;           //!< of a lattice, diameters
     double noise = 0;               //!< of a lattice, share of the free way
@@ -197,6 +198,14 @@ struct TracerCase
 };
 
 //! [gas]
+//! What acts between granules and gas beside drag and transfer, in [gas].
+struct ForceCase
+{
+    std::string virtual_mass = "none", shear_lift = "none", spin_lift = "none", torque = "none";
+    int history = 0;            //!< steps of the window of Basset's force; 0: off
+    bool polydisperse = false;  //!< drag of each size of a mixture
+    bool filtered = false;      //!< drag of cells wider than clusters
+};
 struct GasCase
 {
     bool present = false;
@@ -219,9 +228,11 @@ struct GasCase
     std::vector<FineCase> fine;
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";
-    double smoothing = 0;   //!< bandwidth of the voidage smoothing, m; 0: off
-    bool closed = false;    //!< no inlet and no outlet (periodic or closed box)
-    Vec3 initial_velocity;  //!< m/s
+    ForceCase forces;
+    std::string mapping = "kernel";   //!< or "centre" or "divided"
+    std::optional<double> smoothing;  //!< bandwidth of the smoothing of what granules and gas share, m; none: by size
+    bool closed = false;              //!< no inlet and no outlet (periodic or closed box)
+    Vec3 initial_velocity;            //!< m/s
 };
 
 //! [spray]: one liquid, any number of nozzles share its rate equally (this issue: one nozzle).

@@ -78,6 +78,23 @@ void read_properties(io::CaseFile& file, GasCase& gas)
 }
 }
 
+namespace
+{
+void read_forces(io::CaseFile& file, ForceCase& forces)
+{
+    auto const law = [&](std::string const& key, std::string& name) {
+        name = file.name("gas." + key, name, "law", laws_for("gas." + key), "a law");
+    };
+    law("virtual_mass", forces.virtual_mass);
+    law("shear_lift", forces.shear_lift);
+    law("spin_lift", forces.spin_lift);
+    law("torque", forces.torque);
+    forces.history = static_cast<int>(file.integer("gas.history", 0, "steps of Basset's window; 0: off", 0, 100000));
+    forces.polydisperse = file.boolean("gas.polydisperse", false, "drag of each size of a mixture");
+    forces.filtered = file.boolean("gas.filtered", false, "drag of cells wider than clusters");
+}
+}
+
 FlowCase read_flow(io::CaseFile& file, std::string const& key, GasCase const& gas, double temperature)
 {
     FlowCase flow;
@@ -159,8 +176,11 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
     gas.drag = file.name("gas.drag", gas.drag, "law", laws_for("gas.drag"), "a drag law");
     gas.heat_transfer =
         file.name("gas.heat_transfer", gas.heat_transfer, "law", laws_for("gas.heat_transfer"), "a heat transfer law");
-    gas.smoothing = file.quantity("gas.smoothing", Dimension::length, 0.0,
-                                  "bandwidth of the smoothing of the voidage; 0 mm: off", io::not_negative);
+    read_forces(file, gas.forces);
+    gas.mapping =
+        file.name("gas.mapping", gas.mapping, "of granules to cells", {"kernel", "centre", "divided"}, "a way");
+    gas.smoothing = file.optional_quantity("gas.smoothing", Dimension::length,
+                                           "bandwidth of what granules and gas share; 0 mm: off", io::not_negative);
     gas.initial_velocity =
         file.vector("gas.initial_velocity", Dimension::velocity, math::Vec3{}, "of the gas at the start");
 }

@@ -249,6 +249,8 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
     if (!(material.density > 0)) material.density = granules.density;
     granules.heat_capacity = file.quantity("granules.heat_capacity", Dimension::heat_capacity, granules.heat_capacity,
                                            "of the dry granule", io::positive);
+    granules.emissivity = file.quantity("granules.emissivity", Dimension::one, granules.emissivity,
+                                        "of granules that radiate; 0: none does", io::zero_to_one);
     granules.frozen = file.boolean("granules.frozen", false, "granules stay where they are (fixed bed)");
     auto const sizes = read_sizes(file, "granules.");
     read_granule_file(file, data);

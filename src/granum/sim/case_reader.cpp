@@ -57,7 +57,7 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
     read_gas_walls(file, data);
     read_cells(file, data);
     read_spray(file, data, purpose);
-    read_process(file, data, purpose);
+    read_process(file, data);
     read_time(file, data, purpose);
     read_output(file, data);
     cross_check(file, data, purpose, out.warnings);

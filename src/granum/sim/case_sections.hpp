@@ -22,9 +22,9 @@ FlowCase read_flow(io::CaseFile& file, std::string const& key, GasCase const& ga
 std::vector<std::string> const& end_names();
 void read_cells(io::CaseFile& file, Case& data);  //!< after the apparatus and the granules
 void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
-void read_process(io::CaseFile& file, Case& data, Purpose purpose);  //!< [drying] [product] [start]
-void read_time(io::CaseFile& file, Case& data, Purpose purpose);     //!< and the intervals of [output]
-void read_output(io::CaseFile& file, Case& data);                    //!< after the apparatus
+void read_process(io::CaseFile& file, Case& data);                //!< [drying] [product] [start]
+void read_time(io::CaseFile& file, Case& data, Purpose purpose);  //!< and the intervals of [output]
+void read_output(io::CaseFile& file, Case& data);                 //!< after the apparatus
 
 //! The box between `key`lower and `key`upper, within the apparatus.
 RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chamber const& chamber,

@@ -88,7 +88,7 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     if (whole && nozzles == 0) file.mistake("spray", "has no nozzle", {"add a [[nozzle]] with its position"});
 }
 
-void read_process(io::CaseFile& file, Case& data, Purpose purpose)
+void read_process(io::CaseFile& file, Case& data)
 {
     data.drying.deposit =
         file.name("drying.deposit", data.drying.deposit, "law", laws_for("drying.deposit"), "a law of deposit drying");

@@ -83,6 +83,9 @@ struct Simulation::Saved
     std::vector<drying::Deposit> deposits;
     std::vector<spray::Droplet> droplets;
     std::vector<drying::Event> events;
+    double history_step = 0;
+    std::vector<particle::Id> history_owners;
+    std::vector<double> histories;
     std::vector<double> common, shares;
     std::array<base::ExactSum, 3> energies;  //!< dissipated, elastic, work of walls
     std::vector<GasPart> gas;                //!< by the rank that wrote
@@ -154,6 +157,14 @@ io::Sections Simulation::save()
         out.push_back(io::section_of("deposits", deposits));
         out.push_back(io::section_of("droplets", droplets_));
         out.push_back(io::section_of("events", events_));
+    }
+    if (histories_) {
+        std::vector<particle::Id> of;
+        std::vector<double> values;
+        histories_->save(of, values);
+        out.push_back(io::section_of("histories.step", std::vector{histories_->step()}));
+        out.push_back(io::section_of("histories.granule", of));
+        out.push_back(io::section_of("histories", values));
     }
     if (has_gas()) {
         out.push_back(io::section_of("grid", std::vector<int>{grid_.shift[0], grid_.shift[1], grid_.shift[2],
@@ -236,6 +247,11 @@ std::shared_ptr<Simulation::Saved const> Simulation::read(io::Checkpoint const& 
             append(out.deposits, io::values_of<drying::Deposit>(find("deposits")));
             if (mine || !out.same_ranks) append(out.droplets, io::values_of<spray::Droplet>(find("droplets")));
         }
+        if (case_.gas.forces.history > 0) {
+            out.history_step = io::values_of<double>(find("histories.step")).at(0);
+            append(out.history_owners, io::values_of<particle::Id>(find("histories.granule")));
+            append(out.histories, io::values_of<double>(find("histories")));
+        }
         if (case_.gas.present) {
             auto const place = io::values_of<int>(find("grid"));
             if (place.size() != 6) throw base::IoError(fmt::format("{}: the grid has no place", from.folder));
@@ -272,6 +288,20 @@ void Simulation::take_contacts(Saved const& saved)
             auto const id = saved.deposit_owners[k];
             if (std::binary_search(here.begin(), here.end(), id)) deposits_->on(id).push_back(saved.deposits[k]);
         }
+    }
+    if (histories_ && !saved.history_owners.empty()) {
+        auto here = granules_.id.values;
+        std::sort(here.begin(), here.end());
+        std::vector<particle::Id> owners;
+        std::vector<double> values;
+        std::size_t const each = saved.histories.size() / saved.history_owners.size();
+        for (std::size_t k = 0; k < saved.history_owners.size(); ++k) {
+            if (!std::binary_search(here.begin(), here.end(), saved.history_owners[k])) continue;
+            owners.push_back(saved.history_owners[k]);
+            auto const first = saved.histories.begin() + static_cast<std::ptrdiff_t>(k * each);
+            values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(each));
+        }
+        histories_->recall(saved.history_step, owners, values);
     }
     if (hard_) {
         hard_->resume(granules_, saved.hard);

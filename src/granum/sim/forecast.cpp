@@ -98,10 +98,9 @@ void add_warnings(Case const& data, Forecast& out)
     if (data.gas.drag == "beetstra" && out.reynolds > 1000)
         warn(fmt::format("gas.drag: beetstra is fitted up to Reynolds number 1000, the granules reach {:.4g}",
                          out.reynolds));
-    if (out.cells > 1 && out.cell_over_parcel > 0 && out.cell_over_parcel < 1.5)
-        warn(fmt::format(
-            "cells are only {:.2f} parcels wide: the voidage will be noisy below 1.5; use fewer cells or gas.smoothing",
-            out.cell_over_parcel));
+    if (out.cells > 1 && out.cell_over_parcel > 0 && out.cell_over_parcel < 1.5 && data.gas.smoothing == 0.0)
+        warn(fmt::format("cells are only {:.2f} parcels wide: without gas.smoothing the voidage is noisy below 1.5",
+                         out.cell_over_parcel));
     if (out.overlap > 0.10)
         warn(fmt::format(
             "contacts at {:.2g} m/s overlap by {:.0f} % of a radius (10 % is the limit): raise contact.youngs_modulus",

@@ -37,11 +37,12 @@ std::vector<LawFamily> const& law_families()
 {
     static std::vector<LawFamily> const all{
         family<law::drag::All>("drag", "gas.drag", "force of the gas on the granules"),
-        family<law::force::VirtualMassLaws>("virtual-mass", "", "gas that a granule moves as it speeds up"),
-        {"history", "", "force of the past of the slip", {law::force::BassetWindow::card}},
-        family<law::force::ShearLiftLaws>("lift-shear", "", "lift of the shear of the gas"),
-        family<law::force::SpinLiftLaws>("lift-spin", "", "lift of the spin of the granules"),
-        family<law::force::TorqueLaws>("torque", "", "torque of the gas on the granules"),
+        family<law::force::VirtualMassLaws>("virtual-mass", "gas.virtual_mass",
+                                            "gas that a granule moves as it speeds up"),
+        {"history", "gas.history", "force of the past of the slip", {law::force::BassetWindow::card}},
+        family<law::force::ShearLiftLaws>("lift-shear", "gas.shear_lift", "lift of the shear of the gas"),
+        family<law::force::SpinLiftLaws>("lift-spin", "gas.spin_lift", "lift of the spin of the granules"),
+        family<law::force::TorqueLaws>("torque", "gas.torque", "torque of the gas on the granules"),
         family<law::viscosity::All>("viscosity", "", "viscosity from the rate of shear"),
         family<law::dispersion::All>("dispersion", "", "dispersion of droplets by the turbulence of the gas"),
         family<law::heat::All>("heat-transfer", "gas.heat_transfer", "heat and vapour between granules and gas"),

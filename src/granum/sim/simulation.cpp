@@ -52,6 +52,10 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         deposits_ = std::make_unique<drying::Deposits>(static_cast<std::size_t>(case_.granules.first_free));
         engine_->attach(*deposits_);
     }
+    if (case_.gas.forces.history > 0) {
+        histories_ = std::make_unique<coupling::Histories>(static_cast<std::size_t>(case_.gas.forces.history));
+        engine_->attach(*histories_);
+    }
     if (saved) {
         take_contacts(*state);
     } else {
@@ -185,10 +189,9 @@ void Simulation::gas_step(double dt)
             if (evaporated_[row] == 0) continue;
             double const rate = evaporated_[row] / dt;
             mine_.evaporated += evaporated_[row];
-            coupling::Mapping::spread(stencils[row], rate, sources_.mass);
-            coupling::Mapping::spread(stencils[row], rate, sources_.vapour);
-            coupling::Mapping::spread(stencils[row], rate * air::vapour_enthalpy(granules_.temperature[row]),
-                                      sources_.enthalpy);
+            mapping_->spread(stencils[row], rate, sources_.mass);
+            mapping_->spread(stencils[row], rate, sources_.vapour);
+            mapping_->spread(stencils[row], rate * air::vapour_enthalpy(granules_.temperature[row]), sources_.enthalpy);
         }
     }
     {
@@ -200,6 +203,8 @@ void Simulation::gas_step(double dt)
                                  &sources_.vapour,           &sources_.enthalpy,
                                  &sources_.heat_coefficient, &sources_.heat_value};
         mapping_->finish(fields);
+        grid::Field* couples[] = {&sources_.couple[0], &sources_.couple[1], &sources_.couple[2]};
+        if (exchange_->turns()) mapping_->finish(couples);
     }
     {
         auto const scope = stopwatch_.time(base::Stage::gas);
@@ -210,8 +215,7 @@ void Simulation::gas_step(double dt)
     }
     {
         auto const scope = stopwatch_.time(base::Stage::exchange);
-        double const mismatch =
-            exchange_->deliver(granules_, gas_, solver_->exchanged_temperature(), dt, seen_, sources_);
+        double const mismatch = exchange_->deliver(granules_, gas_, dt, seen_, sources_);
         ledgers_.momentum = std::max(ledgers_.momentum, mismatch);
         if (conduction_->passes_heat()) {
             std::vector<double> capacity(granules_.owned);

@@ -78,6 +78,7 @@ class Simulation
     grid::Grid const& grid() const { return grid_; }
     gas::State const& gas() const { return gas_; }
     gas::Solver const& solver() const { return *solver_; }
+    coupling::Exchange const& exchange() const { return *exchange_; }
     std::vector<spray::Droplet> const& droplets() const { return droplets_; }
     drying::Deposits const& deposits() const { return *deposits_; }
     Balance const& steady() const { return balance_; }
@@ -144,6 +145,7 @@ class Simulation
     gas::State gas_;
     gas::Sources sources_;
     std::unique_ptr<coupling::Mapping> mapping_;
+    std::unique_ptr<coupling::Histories> histories_;
     std::unique_ptr<coupling::Exchange> exchange_;
     std::unique_ptr<coupling::Conduction> conduction_;
     coupling::Seen seen_;

@@ -42,9 +42,11 @@ void Simulation::make_gas()
         wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
     }
     solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
-    mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, gas.smoothing);
-    exchange_ = std::make_unique<coupling::Exchange>(exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
-                                                     gas.pressure, case_.granules.heat_capacity, case_.granules.frozen);
+    mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, smoothing(case_), mapping_scheme(case_));
+    exchange_ = std::make_unique<coupling::Exchange>(
+        exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
+        coupling::Solids{.heat_capacity = case_.granules.heat_capacity, .frozen = case_.granules.frozen},
+        histories_.get());
     conduction_ = std::make_unique<coupling::Conduction>(conduction(case_, comm_));
 }
 

@@ -55,12 +55,12 @@ spray::Seen DropletSurroundings::seen(Vec3 const& x) const
 {
     auto const stencil = mapping_.stencil(x);
     spray::Seen seen;
-    seen.gas_velocity = Mapping::gather(stencil, velocity_);
-    seen.temperature = Mapping::gather(stencil, state_->temperature);
-    seen.vapour_fraction = Mapping::gather(stencil, state_->vapour_fraction);
-    seen.density = Mapping::gather(stencil, state_->density);
+    seen.gas_velocity = mapping_.gather(stencil, velocity_);
+    seen.temperature = mapping_.gather(stencil, state_->temperature);
+    seen.vapour_fraction = mapping_.gather(stencil, state_->vapour_fraction);
+    seen.density = mapping_.gather(stencil, state_->density);
     seen.viscosity = material::viscosity(seen.temperature);
-    seen.solids_fraction = 1 - Mapping::gather(stencil, state_->voidage);
+    seen.solids_fraction = 1 - mapping_.gather(stencil, state_->voidage);
     for (auto const& nozzle : nozzles_) {
         if (math::norm(x - nozzle.position) > jet_reach_) continue;
         // The analytic jet is one in free gas: among granules (a tenth of solids) it is gone, and the cells have its
@@ -76,10 +76,10 @@ spray::Seen DropletSurroundings::seen(Vec3 const& x) const
 void DropletSurroundings::give(Vec3 const& x, spray::Given const& given)
 {
     auto const stencil = mapping_.stencil(x);
-    Mapping::spread(stencil, given.vapour / dt_, sources_->mass);
-    Mapping::spread(stencil, given.vapour / dt_, sources_->vapour);
-    Mapping::spread(stencil, given.enthalpy / dt_, sources_->enthalpy);
-    for (std::size_t d = 0; d < 3; ++d) Mapping::spread(stencil, given.momentum[d] / dt_, sources_->force[d]);
+    mapping_.spread(stencil, given.vapour / dt_, sources_->mass);
+    mapping_.spread(stencil, given.vapour / dt_, sources_->vapour);
+    mapping_.spread(stencil, given.enthalpy / dt_, sources_->enthalpy);
+    for (std::size_t d = 0; d < 3; ++d) mapping_.spread(stencil, given.momentum[d] / dt_, sources_->force[d]);
 }
 
 void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out) const
@@ -109,7 +109,7 @@ void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out
         return;
     }
     // The cells know the whole solids fraction, also of granules beyond this rank's ground.
-    double const fraction = 1 - Mapping::gather(mapping_.stencil(x), state_->voidage);
+    double const fraction = 1 - mapping_.gather(mapping_.stencil(x), state_->voidage);
     for (auto& target : out) target.chance *= fraction / solids;
 }
 }

@@ -41,11 +41,11 @@ struct Bed : gas::ChamberWithGas
     Seen seen;
 
     Bed(geometry::Chamber shape, std::array<int, 3> cells, std::array<bool, 3> periodic, gas::Settings settings,
-        Laws laws, double bandwidth = 0, bool frozen = false, double temperature = 293.15, Vec3 velocity = {},
-        MPI_Comm ranks = MPI_COMM_WORLD)
+        Laws laws, double width = 0, bool frozen = false, double temperature = 293.15, Vec3 velocity = {},
+        MPI_Comm ranks = MPI_COMM_WORLD, Scheme scheme = Scheme::kernel)
         : ChamberWithGas(std::move(shape), cells, periodic, settings, temperature, 0, velocity, ranks),
-          mapping(grid, comm, bandwidth),
-          exchange(std::move(laws), solver, grid, comm, mapping, settings.pressure, heat_capacity, frozen)
+          mapping(grid, comm, width, scheme),
+          exchange(std::move(laws), solver, grid, comm, mapping, {heat_capacity, frozen})
     {
     }
 
@@ -94,7 +94,7 @@ struct Bed : gas::ChamberWithGas
                            &sources.force[2],         &sources.heat_coefficient, &sources.heat_value};
         mapping.finish(fields);
         passed = step(dt);
-        return exchange.deliver(granules, state, solver.exchanged_temperature(), dt, seen, sources);
+        return exchange.deliver(granules, state, dt, seen, sources);
     }
     gas::Balance passed;
 
