@@ -93,11 +93,13 @@ int main(int argc, char** argv)
             for (auto const& [around, together, rates, times] : cases) {
                 auto const [least, most] = std::minmax_element(times.begin(), times.end());
                 fmt::print(
-                    "{:12}{:5} steps a call: {:.3g} granule steps per second (at best {:.4g}), time {:.3f} (from {:.3f} to {:.3f})\n",
+                    "{:12}{:5} steps a call: {:.3g} granule steps per second (at best {:.4g}), time {:.3f} (from "
+                    "{:.3f} to {:.3f})\n",
                     around == Around::nothing ? "alone"
                     : around == Around::gas   ? "gas"
                                               : "turning gas",
-                    together, median(rates), *std::max_element(rates.begin(), rates.end()), median(times), *least, *most);
+                    together, median(rates), *std::max_element(rates.begin(), rates.end()), median(times), *least,
+                    *most);
             }
         }
     }
