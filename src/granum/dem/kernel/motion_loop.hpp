@@ -1,6 +1,8 @@
 // The vectorised loop that moves granules on. Included by one source per instruction set, see lanes.hpp.
 //
 // Without fused operations, which not all processors have: the motion has the same bits whatever the instruction set.
+#pragma once
+
 #include "granum/dem/kernel/kernel.hpp"
 #include "granum/dem/kernel/lanes.hpp"
 
@@ -104,7 +106,7 @@ void move_in(Motion const& in, MotionSeen& seen)
         move_rows<1, false, Gas, Turns>(in, seen);
 }
 
-void move(Motion const& in, MotionSeen& seen)
+inline void move(Motion const& in, MotionSeen& seen)
 {
     if (in.gas == nullptr)
         move_in<false, false>(in, seen);
