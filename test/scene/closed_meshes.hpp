@@ -2,6 +2,7 @@
 // distance: the solid angle.
 #pragma once
 
+#include "granum/geometry/chamber.hpp"
 #include "granum/geometry/closed_mesh.hpp"
 #include "scene/meshes.hpp"
 
