@@ -87,6 +87,37 @@ ClosedMesh::ClosedMesh(Corners const& corners) : triangles_(all_triangles(corner
         }
     for (auto& normal : pseudo_normals_)
         if (double const length = norm(normal); length > 0) normal = normal / length;
+    make_rough();
+}
+
+void ClosedMesh::make_rough()
+{
+    if (triangles_.size() < 1000) return;  // where the tree is as fast
+    Vec3 const size = bounds_.upper - bounds_.lower;
+    rough_.step = std::max({size.x, size.y, size.z}) / 32;
+    for (std::size_t d = 0; d < 3; ++d) rough_.n[d] = static_cast<std::size_t>(size[d] / rough_.step) + 1;
+    rough_.distance.reserve(rough_.n[0] * rough_.n[1] * rough_.n[2]);
+    for (std::size_t k = 0; k < rough_.n[2]; ++k)
+        for (std::size_t j = 0; j < rough_.n[1]; ++j)
+            for (std::size_t i = 0; i < rough_.n[0]; ++i) {
+                Vec3 const at{static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, static_cast<double>(k) + 0.5};
+                rough_.distance.push_back(distance(bounds_.lower + rough_.step * at).distance);
+            }
+}
+
+double ClosedMesh::rough_distance(Vec3 const& x) const
+{
+    if (rough_.distance.empty()) return 0;
+    double const outside = bounds_.distance(x);
+    if (outside > 0) return outside;
+    std::array<std::size_t, 3> cube{};
+    Vec3 middle = bounds_.lower;
+    for (std::size_t d = 0; d < 3; ++d) {
+        cube[d] = std::min(static_cast<std::size_t>((x[d] - bounds_.lower[d]) / rough_.step), rough_.n[d] - 1);
+        middle[d] += rough_.step * (static_cast<double>(cube[d]) + 0.5);
+    }
+    double const known = rough_.distance[(cube[2] * rough_.n[1] + cube[1]) * rough_.n[0] + cube[0]];
+    return std::copysign(std::max(0.0, std::abs(known) - norm(x - middle)), known);
 }
 
 SurfaceDistance ClosedMesh::distance(Vec3 const& x) const

@@ -24,6 +24,8 @@ class ClosedMesh
     explicit ClosedMesh(Corners const& corners);
 
     SurfaceDistance distance(Vec3 const& x) const;
+    //! At once, and at most the true distance in magnitude; 0 near the surface.
+    double rough_distance(Vec3 const& x) const;
     Bounds const& bounds() const { return bounds_; }
     double volume() const;  //!< m3
     std::vector<Triangle> const& triangles() const { return triangles_; }
@@ -40,5 +42,14 @@ class ClosedMesh
     std::vector<Vec3> pseudo_normals_;  // unit
     TriangleTree tree_;
     Bounds bounds_;
+
+    //! Distances in the middles of some thousand cubes that fill the bounds.
+    struct Rough
+    {
+        double step = 0;
+        std::array<std::size_t, 3> n{};
+        std::vector<double> distance;
+    } rough_;
+    void make_rough();
 };
 }

@@ -118,8 +118,10 @@ Fault fault_of(MeshPointer const& mesh)
 }
 }
 
-SurfaceDistance surface_distance(Solid const& solid, Vec3 const& x)
+SurfaceDistance surface_distance(Solid const& solid, Vec3 const& x, double enough)
 {
+    if (auto const* mesh = std::get_if<MeshPointer>(&solid))
+        if (double const rough = (*mesh)->rough_distance(x); std::abs(rough) > enough) return {rough, {0, 0, 1}};
     return std::visit([&](auto const& one) { return distance_of(one, x); }, solid);
 }
 

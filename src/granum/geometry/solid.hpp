@@ -35,8 +35,10 @@ struct HalfSpace
 
 using Solid = std::variant<Box, Ball, HalfSpace, Revolution, std::shared_ptr<ClosedMesh const>>;
 
-//! Exact for every solid.
-SurfaceDistance surface_distance(Solid const& solid, Vec3 const& x);
+//! Exact for every solid. Where the surface is farther than `enough` (m), a lower distance above that and any normal
+//! may be given, if that is faster.
+SurfaceDistance surface_distance(Solid const& solid, Vec3 const& x,
+                                 double enough = std::numeric_limits<double>::infinity());
 Bounds bounds(Solid const& solid);
 
 //! What makes this no solid, to be read after its name; nothing for a good one.
