@@ -80,6 +80,35 @@ Region operator-(Region a, Region b)
     return Region::join(std::move(a), std::move(b), true);
 }
 
+Region operator~(Region a)
+{
+    a.turn_inside_out();
+    a.measure();
+    return a;
+}
+
+bool Region::bounds_everywhere(std::size_t solid) const
+{
+    auto const& root = nodes_.back();
+    auto const leaf = -1 - static_cast<std::int32_t>(solid);
+    return (root.all || root.parts.size() == 1) &&
+           std::find(root.parts.begin(), root.parts.end(), leaf) != root.parts.end();
+}
+
+std::optional<Region> Region::without(std::vector<std::size_t> const& some) const
+{
+    Region out = *this;
+    auto& parts = out.nodes_.back().parts;
+    for (std::size_t const solid : some) {
+        if (!bounds_everywhere(solid)) continue;
+        std::erase(parts, -1 - static_cast<std::int32_t>(solid));
+        if (solid == 0) out.chamber_.reset();
+    }
+    if (parts.empty()) return std::nullopt;
+    out.measure();
+    return out;
+}
+
 WallDistance Region::leaf_at(std::size_t leaf, Vec3 const& x, double enough) const
 {
     auto const [distance, normal] = surface_distance(leaves_[leaf].solid, x, enough);

@@ -37,6 +37,8 @@ class Region
     friend Region operator|(Region a, Region b);
     friend Region operator&(Region a, Region b);
     friend Region operator-(Region a, Region b);
+    //! What is closed becomes open.
+    friend Region operator~(Region a);
 
     //! Where the wall is farther than `enough` (m), a lower distance above that and any normal may be given, if that is
     //! faster.
@@ -60,6 +62,11 @@ class Region
     Solid const& solid(std::size_t number) const { return leaves_[number].solid; }
     //! Whether granules and gas are in the solid, or around it.
     bool open_inside(std::size_t solid) const { return leaves_[solid].open_inside; }
+
+    //! Whether the region is open only where the solid leaves it open, whatever the others do.
+    bool bounds_everywhere(std::size_t solid) const;
+    //! The region as if some solids that bound everywhere were not there; nothing if no other is left. Numbers stay.
+    std::optional<Region> without(std::vector<std::size_t> const& some) const;
 
     //! The chamber, if it is all that bounds within `reach` (m) of x; else nothing.
     Chamber const* only_chamber(Vec3 const& x, double reach) const;
