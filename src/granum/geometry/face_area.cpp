@@ -62,7 +62,10 @@ double FaceArea::part_of(WallModel const& model, Vec3 const& half) const
 
 double FaceArea::open(Vec3 const& middle, double half_u, double half_v)
 {
-    return halved(middle, half_u, half_v, sample(region_, middle, {}), 0);
+    Sample const own = sample(region_, middle, {});
+    seen_.push_back(own);
+    seen_.back().at = middle;
+    return halved(middle, half_u, half_v, own, 0);
 }
 
 double FaceArea::halved(Vec3 const& middle, double half_u, double half_v, Sample const& own, int level)

@@ -22,7 +22,8 @@ class FaceArea
     //! `direction`.
     double open(Vec3 const& middle, double half_u, double half_v);
 
-    //! Where the distance was taken on the first two levels of halving; `at` is counted from the origin of space.
+    //! Where the distance was taken so far, in the middle and on the first two levels of halving; `at` is counted from
+    //! the origin of space.
     std::vector<Sample> const& seen() const { return seen_; }
     //! Moved within the plane of the rectangle.
     Vec3 place(Vec3 const& middle, double u, double v) const;

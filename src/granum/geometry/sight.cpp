@@ -44,7 +44,9 @@ std::optional<Vec3> open_place(Region const& region, Vec3 const& low, Vec3 const
         x += (-wall.distance + 0.01 * std::min({size.x, size.y, size.z})) * wall.normal;
         if (!within(x)) break;
     }
-    // The way out of the wall leads out of the box: the most open place of a few.
+    // The way out of the wall leads out of the box: the last place within it, or the most open of a few.
+    for (std::size_t d = 0; d < 3; ++d) x[d] = std::clamp(x[d], low[d] + 1e-3 * size[d], high[d] - 1e-3 * size[d]);
+    if (region.distance(x) > 0) return x;
     std::optional<Vec3> best;
     double farthest = 0;
     for (int i = -1; i <= 1; ++i)

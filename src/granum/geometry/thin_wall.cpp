@@ -41,9 +41,8 @@ bool ThinWall::sees(Place const& a, Place const& b) const
     return norm(b.at - a.at) < a.free + b.free || !region_.blocked(a.at, b.at);
 }
 
-bool ThinWall::reaches(Cell const& cell, Vec3 const& x) const
+bool ThinWall::reaches(Cell const& cell, Place const& place) const
 {
-    Place const place = off_wall(cell, x, region_.distance(x));
     if (!(place.free > 0)) return false;
     if (sees(cell.middle, place)) return true;
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -53,21 +52,43 @@ bool ThinWall::reaches(Cell const& cell, Vec3 const& x) const
     return false;
 }
 
-ThinWall::Place ThinWall::off_wall(Cell const& cell, Vec3 const& x, double distance) const
+bool ThinWall::on_wall(Sample const& place) const
 {
-    if (std::abs(distance) > near_) return {x, distance};
-    Vec3 aside = x;
-    aside[d_] += 2 * cell.inwards * near_;
-    return {aside, region_.distance(aside)};
+    return std::abs(place.distance) <= near_ && std::hypot(place.normal[u_], place.normal[v_]) < 0.1;
+}
+
+template <class Reach>
+bool ThinWall::through(Sample const& from, Reach&& reach) const
+{
+    if (!on_wall(from))
+        return std::all_of(cells_.begin(), cells_.end(), [&](Cell const& cell) {
+            return reach(cell, Place{from.at, from.distance});
+        });
+    // On a wall or a seam: each cell looks at its own side, and the two sides at each other.
+    std::optional<Place> other;
+    for (auto const& cell : cells_) {
+        Vec3 aside = from.at;
+        aside[d_] += 2 * cell.inwards * near_;
+        Place const place{aside, region_.distance(aside)};
+        if (!(place.free > 0) || !reach(cell, place) || (other && !sees(*other, place))) return false;
+        other = place;
+    }
+    return true;
 }
 
 bool ThinWall::all_seen(std::vector<Sample> const& places) const
 {
+    auto const open = [&](Sample const& one) { return one.distance > 0 || on_wall(one); };
+    auto const seen = [&](Sample const& one) {
+        return through(one, [&](Cell const& cell, Place const& place) { return sees(cell.middle, place); });
+    };
+    auto const [nearest, freest] = std::pair{
+        std::min_element(places.begin(), places.end(),
+                         [](Sample const& a, Sample const& b) { return std::abs(a.distance) < std::abs(b.distance); }),
+        std::max_element(places.begin(), places.end(),
+                         [](Sample const& a, Sample const& b) { return a.distance < b.distance; })};
+    if (!open(*freest) || !seen(*freest)) return false;
     // Mostly there is one wall, nearly a plane, and all distances say so.
-    Sample const* nearest = nullptr;
-    for (auto const& one : places)
-        if (nearest == nullptr || std::abs(one.distance) < std::abs(nearest->distance)) nearest = &one;
-    if (nearest == nullptr) return true;
     Linear const plane = nearest->plane();
     auto const on_plane = [&](Vec3 const& x, double distance) {
         double const said = plane.at(x);
@@ -77,31 +98,25 @@ bool ThinWall::all_seen(std::vector<Sample> const& places) const
         std::all_of(places.begin(), places.end(), [&](Sample const& one) { return on_plane(one.at, one.distance); }) &&
         std::all_of(cells_.begin(), cells_.end(),
                     [&](Cell const& cell) { return on_plane(cell.middle.at, cell.middle.free); });
-    if (simple) return true;
-    bool any = false;
-    for (auto const& one : places) {
-        if (one.distance < -near_) continue;
-        for (auto const& cell : cells_) {
-            Place const place = off_wall(cell, one.at, one.distance);
-            if (!(place.free > 0)) continue;
-            if (!sees(cell.middle, place)) return false;
-            any = true;
-        }
-    }
-    return any;
+    return simple ||
+           std::all_of(places.begin(), places.end(), [&](Sample const& one) { return !open(one) || seen(one); });
 }
 
-std::optional<Vec3> ThinWall::open_in(FaceArea const& face, Vec3 const& middle, double half_u, double half_v) const
+std::optional<Sample> ThinWall::open_in(FaceArea const& face, Vec3 const& middle, double half_u, double half_v) const
 {
-    auto const wall = region_.at(middle);
-    if (wall.distance >= -near_) return middle;
-    double const across = std::hypot(wall.normal[u_], wall.normal[v_]);
+    auto const look = [&](Vec3 const& x) {
+        auto const wall = region_.at(x);
+        return Sample{x, wall.distance, wall.normal};
+    };
+    Sample const own = look(middle);
+    if (own.distance > 0 || on_wall(own)) return own;
+    double const across = std::hypot(own.normal[u_], own.normal[v_]);
     if (across < 0.1) return std::nullopt;
-    double const way = (-wall.distance + 0.05 * std::min(half_u, half_v)) / (across * across);
-    double const u = way * wall.normal[u_], v = way * wall.normal[v_];
-    Vec3 const aside = face.place(middle, u, v);
-    if (std::abs(u) > half_u || std::abs(v) > half_v || region_.distance(aside) <= 0) return std::nullopt;
-    return aside;
+    double const way = (-own.distance + 0.05 * std::min(half_u, half_v)) / (across * across);
+    double const u = way * own.normal[u_], v = way * own.normal[v_];
+    if (std::abs(u) > half_u || std::abs(v) > half_v) return std::nullopt;
+    Sample const beside = look(face.place(middle, u, v));
+    return beside.distance > 0 ? std::optional(beside) : std::nullopt;
 }
 
 double ThinWall::reached_area(FaceArea& face) const
@@ -115,9 +130,8 @@ double ThinWall::reached_area(FaceArea& face) const
             double const area = face.open(middle, half_u, half_v);
             if (area <= 0) continue;
             auto const place = open_in(face, middle, half_u, half_v);
-            if (place &&
-                std::all_of(cells_.begin(), cells_.end(), [&](Cell const& cell) { return reaches(cell, *place); }))
-                sum += area;
+            auto const reach = [&](Cell const& cell, Place const& at) { return reaches(cell, at); };
+            if (place && through(*place, reach)) sum += area;
         }
     return sum;
 }

@@ -41,11 +41,15 @@ class ThinWall
 
     Place away(Vec3 const& x, double step) const;
     bool sees(Place const& a, Place const& b) const;
-    bool reaches(Cell const& cell, Vec3 const& x) const;
-    //! A place of the face as the cell finds it: beside a wall or seam that lies on the face.
-    Place off_wall(Cell const& cell, Vec3 const& x, double distance) const;
+    //! Straight or after a step away from the wall at both ends.
+    bool reaches(Cell const& cell, Place const& place) const;
+    //! Whether a wall or a seam lies on the face there.
+    bool on_wall(Sample const& place) const;
+    //! Whether reach(cell, place) holds from both cells for a place of the face.
+    template <class Reach>
+    bool through(Sample const& from, Reach&& reach) const;
     //! The middle of a part of the face, or the open next to it.
-    std::optional<Vec3> open_in(FaceArea const& face, Vec3 const& middle, double half_u, double half_v) const;
+    std::optional<Sample> open_in(FaceArea const& face, Vec3 const& middle, double half_u, double half_v) const;
 
     Region const& region_;
     std::size_t d_, u_, v_;
