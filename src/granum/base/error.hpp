@@ -56,7 +56,10 @@ struct CaseError : Error
     static std::string join(std::vector<Mistake> const& all)
     {
         std::string out;
-        for (auto const& mistake : all) out += (out.empty() ? "" : "\n") + mistake.text();
+        for (auto const& mistake : all) {
+            if (!out.empty()) out += '\n';
+            out += mistake.text();
+        }
         return out;
     }
 };

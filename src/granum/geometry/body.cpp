@@ -34,6 +34,10 @@ bool unmoved_one(Disc const& disc, Rotation const& rotation)
 {
     return same_axis(disc.centre, disc.normal, rotation);
 }
+bool unmoved_one(Sphere const& sphere, Rotation const& rotation)
+{
+    return same_axis(sphere.centre, rotation.axis, rotation);
+}
 bool unmoved_one(Mesh const&, Rotation const&)
 {
     return false;
@@ -51,6 +55,10 @@ std::optional<double> facing(Disc const& disc, Vec3 const& direction)
 {
     return pi * (disc.radius * disc.radius - disc.hole * disc.hole) * std::abs(dot(disc.normal, direction));
 }
+std::optional<double> facing(Sphere const& sphere, Vec3 const&)
+{
+    return pi * sphere.radius * sphere.radius;
+}
 std::optional<double> facing(Mesh const& mesh, Vec3 const& direction)
 {
     double along = 0, against = 0;
@@ -61,39 +69,29 @@ std::optional<double> facing(Mesh const& mesh, Vec3 const& direction)
     return std::max(along, against);
 }
 
-void widen(Bounds& box, Vec3 const& lower, Vec3 const& upper)
-{
-    for (std::size_t d = 0; d < 3; ++d) {
-        box.lower[d] = std::min(box.lower[d], lower[d]);
-        box.upper[d] = std::max(box.upper[d], upper[d]);
-    }
-}
-
-void widen_by_circle(Bounds& box, Vec3 const& centre, Vec3 const& normal, double radius)
-{
-    Vec3 half;
-    for (std::size_t d = 0; d < 3; ++d) half[d] = radius * std::sqrt(std::max(0.0, 1 - normal[d] * normal[d]));
-    widen(box, centre - half, centre + half);
-}
-
 void widen_by(Bounds& box, Plane const&)
 {
     constexpr double far = std::numeric_limits<double>::infinity();
-    widen(box, {-far, -far, -far}, {far, far, far});
+    box.widen({-far, -far, -far}, {far, far, far});
 }
 void widen_by(Bounds& box, Frustum const& frustum)
 {
-    widen_by_circle(box, frustum.base, frustum.axis, frustum.base_radius);
-    widen_by_circle(box, frustum.base + frustum.length * frustum.axis, frustum.axis, frustum.top_radius);
+    box.widen_by_circle(frustum.base, frustum.axis, frustum.base_radius);
+    box.widen_by_circle(frustum.base + frustum.length * frustum.axis, frustum.axis, frustum.top_radius);
 }
 void widen_by(Bounds& box, Disc const& disc)
 {
-    widen_by_circle(box, disc.centre, disc.normal, disc.radius);
+    box.widen_by_circle(disc.centre, disc.normal, disc.radius);
+}
+void widen_by(Bounds& box, Sphere const& sphere)
+{
+    Vec3 const half{sphere.radius, sphere.radius, sphere.radius};
+    box.widen(sphere.centre - half, sphere.centre + half);
 }
 void widen_by(Bounds& box, Mesh const& mesh)
 {
     for (auto const& triangle : mesh.triangles)
-        for (auto const& corner : triangle) widen(box, corner, corner);
+        for (auto const& corner : triangle) box.widen(corner);
 }
 }
 
@@ -128,8 +126,7 @@ std::optional<double> facing_area(Body const& body, Vec3 const& direction)
 
 Bounds bounds(Body const& body)
 {
-    constexpr double big = std::numeric_limits<double>::max();
-    Bounds box{{big, big, big}, {-big, -big, -big}};
+    Bounds box;
     for (auto const& shape : body.shapes) std::visit([&](auto const& one) { widen_by(box, one); }, shape);
     return box;
 }

@@ -1,6 +1,7 @@
 // Wall bodies: named walls of one material with one motion, made of one or several shapes.
 #pragma once
 
+#include "granum/geometry/bounds.hpp"
 #include "granum/geometry/motion.hpp"
 #include "granum/geometry/shape.hpp"
 
@@ -28,14 +29,10 @@ bool unmoved(Shape const& shape, Rotation const& rotation);
 //! How many of the first motions are rotations that leave every shape of the body where it is.
 std::size_t rotations_in_place(Body const& body);
 
-//! Area that discs and meshes turn to `direction` (unit), m2: of each mesh the larger of the parts that face along and
-//! against it. Nothing for a body with a plane or a flank, whose area must be given.
+//! Area that discs, spheres and meshes turn to `direction` (unit), m2: of each mesh the larger of the parts that face
+//! along and against it. Nothing for a body with a plane or a flank, whose area must be given.
 std::optional<double> facing_area(Body const& body, Vec3 const& direction);
 
-//! Corners of the box around the body as drawn; infinite where it has a plane.
-struct Bounds
-{
-    Vec3 lower, upper;  //!< m
-};
+//! The box around the body as drawn; infinite where it has a plane.
 Bounds bounds(Body const& body);
 }

@@ -47,7 +47,7 @@ class BodySearch
   private:
     Nearest nearest_of(std::uint32_t facet, Vec3 const& centre) const;
 
-    using Smooth = std::variant<Plane, Frustum, Disc>;
+    using Smooth = std::variant<Plane, Frustum, Disc, Sphere>;
     std::vector<Smooth> smooth_;  // facets 0 .. smooth_.size()
     std::vector<Triangle> triangles_;
     std::vector<Vec3> normals_;

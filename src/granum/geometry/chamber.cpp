@@ -46,6 +46,25 @@ double integrate(std::vector<ProfilePoint> const& profile, double z0, double z1,
     return sum;
 }
 
+//! Integral over a height `rise` of min(t, half chord) in a plane at a distance `p` from the axis, where the radius
+//! goes from r0 to r1 (all at least 0) at a constant rate.
+double under_chord(double r0, double r1, double rise, double p, double t)
+{
+    double const low = std::min(r0, r1), high = std::max(r0, r1), full = std::hypot(p, t);  // the chord is 2 t long
+    if (high <= p) return 0;
+    if (high - low < 1e-7 * high) {
+        double const half2 = low * low - p * p;
+        return half2 > 0 ? rise * std::min(t, std::sqrt(half2)) : 0;
+    }
+    // Antiderivative of sqrt(r^2 - p^2).
+    auto const area = [&](double r) {
+        double const half = std::sqrt(std::max(0.0, r * r - p * p));
+        return 0.5 * (r * half - (p > 0 ? p * p * std::log((r + half) / p) : 0));
+    };
+    double const from = std::clamp(low, p, full), to = std::clamp(high, p, full);
+    return rise / (high - low) * (area(to) - area(from) + t * std::max(0.0, high - std::max(low, full)));
+}
+
 double overlap(double low0, double high0, double low1, double high1)
 {
     return std::max(0.0, std::min(high0, high1) - std::max(low0, low1));
@@ -154,14 +173,19 @@ double Chamber::open_area(int direction, Vec3 const& low, Vec3 const& high) cons
     }
     double const z0 = std::max(low.z, 0.0), z1 = std::min(high.z, top);
     if (z1 <= z0) return 0;
-    double const plane = direction == 0 ? low.x : low.y;
+    double const plane = std::abs(direction == 0 ? low.x : low.y);
     double const from = direction == 0 ? low.y : low.x, to = direction == 0 ? high.y : high.x;
-    return integrate(profile, z0, z1, [&](double z) {
-        double const r = radius(z);
-        double const half2 = r * r - plane * plane;
-        if (half2 <= 0) return 0.0;
-        double const half = std::sqrt(half2);
-        return overlap(from, to, -half, half);
-    });
+    double sum = 0, below = z0;
+    auto const piece = [&](double above) {
+        auto const until = [&](double edge) {
+            return std::copysign(under_chord(radius(below), radius(above), above - below, plane, std::abs(edge)), edge);
+        };
+        sum += until(to) - until(from);
+        below = above;
+    };
+    for (auto const& point : profile)
+        if (point.height > below && point.height < z1) piece(point.height);
+    if (z1 > below) piece(z1);
+    return sum;
 }
 }

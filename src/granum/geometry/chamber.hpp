@@ -38,11 +38,10 @@ struct Chamber
     bool inside(Vec3 const& x, double margin = 0) const;  //!< farther than `margin` from every wall, plate and outlet
 
     //! Open volume of the axis-aligned box [low, high], m3; exact in the horizontal, five Gauss points in z between
-    //! profile points. Boxes that tile a layer share these points, so that their sum is the layer's volume to
-    //! round-off.
+    //! profile points (in a cone to 1e-3 of the box). Boxes that tile a layer share these points, so that their sum is
+    //! the layer's volume to round-off.
     double open_volume(Vec3 const& low, Vec3 const& high) const;
-    //! Open area of the face of [low, high] with normal `direction`, at low[direction], m2: exact for horizontal
-    //! faces, Gauss points in z for vertical ones.
+    //! Open area of the face of [low, high] with normal `direction`, at low[direction], m2. Exact.
     double open_area(int direction, Vec3 const& low, Vec3 const& high) const;
 };
 

@@ -1,5 +1,7 @@
 #include "granum/geometry/shape.hpp"
 
+#include "granum/geometry/axis.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,37 +9,12 @@ namespace granum::geometry
 {
 namespace
 {
-//! Any unit vector across `n`: across the coordinate that n has least of.
-Vec3 across(Vec3 const& n)
-{
-    double const x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    Vec3 const least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-    Vec3 const side = cross(n, least);
-    return side / norm(side);
-}
-
 //! Nearest to a point, or to a point of an edge; `otherwise` is the normal where the centre is that very point.
 Nearest nearest_point(Vec3 const& point, Vec3 const& centre, Vec3 const& otherwise, Feature feature)
 {
     Vec3 const apart = centre - point;
     double const distance = norm(apart);
     return {point, distance > 0 ? apart / distance : otherwise, distance, feature};
-}
-
-//! Where a centre lies seen from an axis.
-struct AroundAxis
-{
-    double along, away;  // m
-    Vec3 outward;        // unit
-};
-
-AroundAxis around(Vec3 const& base, Vec3 const& axis, Vec3 const& centre)
-{
-    Vec3 const apart = centre - base;
-    double const along = dot(apart, axis);
-    Vec3 const radial = apart - along * axis;
-    double const away = norm(radial);
-    return {along, away, away > 0 ? radial / away : across(axis)};
 }
 }
 
@@ -87,6 +64,16 @@ Nearest nearest(Disc const& disc, Vec3 const& centre)
     }
     double const radius = away > disc.radius ? disc.radius : disc.hole;
     return nearest_point(disc.centre + radius * outward, centre, disc.normal, Feature::edge);
+}
+
+Nearest nearest(Sphere const& sphere, Vec3 const& centre)
+{
+    Vec3 const apart = centre - sphere.centre;
+    double const away = norm(apart);
+    Vec3 const outward = away > 0 ? apart / away : Vec3{0, 0, 1};
+    bool const inwards = sphere.side == Side::inside || (sphere.side == Side::both && away < sphere.radius);
+    double const distance = inwards ? sphere.radius - away : away - sphere.radius;
+    return {sphere.centre + sphere.radius * outward, inwards ? -outward : outward, distance, Feature::face};
 }
 
 Nearest nearest(Triangle const& triangle, Vec3 const& normal, Vec3 const& centre)

@@ -20,8 +20,8 @@ struct Plane
 //! Where granules live: a centre on the other side of the surface is behind it and is pushed back.
 enum class Side
 {
-    inside,   //!< towards the axis
-    outside,  //!< away from the axis
+    inside,   //!< towards the axis or centre
+    outside,  //!< away from it
     both      //!< a thin wall: a centre is pushed to the side on which it is
 };
 
@@ -45,6 +45,14 @@ struct Disc
     double hole = 0;       //!< radius of the hole, m; 0: none
 };
 
+//! Surface of a ball.
+struct Sphere
+{
+    Vec3 centre;             //!< m
+    double radius = 0;       //!< m
+    Side side = Side::both;  //!< inside: towards the centre
+};
+
 using Triangle = std::array<Vec3, 3>;  //!< corners, m
 
 //! Triangles; thin, touched from both sides.
@@ -53,7 +61,7 @@ struct Mesh
     std::vector<Triangle> triangles;
 };
 
-using Shape = std::variant<Plane, Frustum, Disc, Mesh>;
+using Shape = std::variant<Plane, Frustum, Disc, Sphere, Mesh>;
 
 //! What of a shape is nearest.
 enum class Feature
@@ -80,6 +88,7 @@ std::vector<Shape> box_inside(Vec3 const& lower, Vec3 const& upper);
 Nearest nearest(Plane const& plane, Vec3 const& centre);
 Nearest nearest(Frustum const& frustum, Vec3 const& centre);
 Nearest nearest(Disc const& disc, Vec3 const& centre);
+Nearest nearest(Sphere const& sphere, Vec3 const& centre);
 //! `normal` is the unit normal of the triangle, which `triangle_normal` gives.
 Nearest nearest(Triangle const& triangle, Vec3 const& normal, Vec3 const& centre);
 

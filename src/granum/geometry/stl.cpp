@@ -1,6 +1,8 @@
 #include "granum/geometry/stl.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/geometry/bounds.hpp"
+#include "granum/geometry/closed_check.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,12 +21,25 @@ namespace
 constexpr std::size_t head_bytes = 84, triangle_bytes = 50;
 constexpr std::size_t ascii_bytes_per_triangle = 500;  // a plain writer needs about 270
 constexpr double farthest = 1e6;                       // of a coordinate, m
-constexpr double lowest = 1e-6;                        // height of a triangle over the size of the mesh
 
 template <class... Arguments>
 [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments)
 {
     throw base::IoError(fmt::format(what, std::forward<Arguments>(arguments)...));
+}
+
+std::uint32_t number_at(std::string const& bytes, std::size_t at)
+{
+    std::uint32_t value = 0;
+    for (std::size_t k = 4; k-- > 0;) value = (value << 8) | static_cast<unsigned char>(bytes[at + k]);
+    return value;
+}
+
+//! Whether the bytes begin a binary file of `size` bytes.
+bool counted(std::string const& bytes, std::uint64_t size)
+{
+    return bytes.size() >= head_bytes &&
+           size == head_bytes + triangle_bytes * static_cast<std::uint64_t>(number_at(bytes, 80));
 }
 
 std::string contents(std::string const& path, StlOptions const& options)
@@ -38,17 +53,20 @@ std::string contents(std::string const& path, StlOptions const& options)
     if (size > options.most_triangles * ascii_bytes_per_triangle)
         fail("{}: {} bytes are more than {} triangles can need; at most {} triangles are taken", path, size,
              options.most_triangles, options.most_triangles);
-    std::string bytes(static_cast<std::size_t>(size), '\0');
     std::ifstream in(path, std::ios::binary);
-    if (!in || !in.read(bytes.data(), static_cast<std::streamsize>(size))) fail("{}: cannot be read", path);
+    std::string bytes(std::min<std::size_t>(size, head_bytes), '\0');
+    auto const read = [&](std::size_t from) {
+        if (!in || !in.read(bytes.data() + from, static_cast<std::streamsize>(bytes.size() - from)))
+            fail("{}: cannot be read", path);
+    };
+    read(0);
+    // A head that announces too many and fits the size is answered before the rest is read.
+    if (counted(bytes, size) && number_at(bytes, 80) > options.most_triangles)
+        fail("{}: {} triangles; at most {} are taken", path, number_at(bytes, 80), options.most_triangles);
+    std::size_t const begun = bytes.size();
+    bytes.resize(static_cast<std::size_t>(size));
+    read(begun);
     return bytes;
-}
-
-std::uint32_t number_at(std::string const& bytes, std::size_t at)
-{
-    std::uint32_t value = 0;
-    for (std::size_t k = 4; k-- > 0;) value = (value << 8) | static_cast<unsigned char>(bytes[at + k]);
-    return value;
 }
 
 Vec3 placed(Vec3 const& corner, StlOptions const& options, std::string const& place, std::size_t triangle)
@@ -64,8 +82,6 @@ Vec3 placed(Vec3 const& corner, StlOptions const& options, std::string const& pl
 std::vector<Triangle> binary(std::string const& path, std::string const& bytes, StlOptions const& options)
 {
     std::size_t const count = number_at(bytes, 80);
-    if (count > options.most_triangles)
-        fail("{}: {} triangles; at most {} are taken", path, count, options.most_triangles);
     std::vector<Triangle> out(count);
     for (std::size_t k = 0; k < count; ++k)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -211,9 +227,8 @@ StlMesh read_stl(std::string const& path, StlOptions const& options)
     std::string const bytes = contents(path, options);
     if (bytes.empty()) fail("{}: is empty", path);
     // Many binary files begin with "solid" as well: what decides is whether the count fits the size.
-    bool const counted = bytes.size() >= head_bytes &&
-                         bytes.size() == head_bytes + triangle_bytes * static_cast<std::uint64_t>(number_at(bytes, 80));
-    if (!counted && !says_solid(bytes)) {
+    bool const is_binary = counted(bytes, bytes.size());
+    if (!is_binary && !says_solid(bytes)) {
         if (bytes.size() < head_bytes)
             fail("{}: is no STL file: it does not begin with \"solid\" and has only {} bytes", path, bytes.size());
         fail(
@@ -222,28 +237,20 @@ StlMesh read_stl(std::string const& path, StlOptions const& options)
             path, number_at(bytes, 80), head_bytes + triangle_bytes * static_cast<std::uint64_t>(number_at(bytes, 80)),
             bytes.size());
     }
-    auto triangles = counted ? binary(path, bytes, options) : ascii(path, bytes, options);
+    auto triangles = is_binary ? binary(path, bytes, options) : ascii(path, bytes, options);
     if (triangles.empty()) fail("{}: has no triangles", path);
 
-    Vec3 lower = triangles.front()[0], upper = lower;
+    Bounds box;
     for (auto const& triangle : triangles)
-        for (auto const& corner : triangle)
-            for (std::size_t d = 0; d < 3; ++d) {
-                lower[d] = std::min(lower[d], corner[d]);
-                upper[d] = std::max(upper[d], corner[d]);
-            }
-    // Corners are known to about 1e-7 of the size (single precision), so that the normal of a lower triangle is chance.
-    double const least_height = lowest * norm(upper - lower);
+        for (auto const& corner : triangle) box.widen(corner);
+    double const least_height = lowest_triangle * box.size();
     StlMesh out;
     for (auto const& triangle : triangles) {
-        Vec3 const a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
-        double const longest = std::sqrt(std::max({norm2(a), norm2(b), norm2(b - a)}));
-        if (norm(cross(a, b)) > least_height * longest)
-            out.mesh.triangles.push_back(triangle);
-        else
-            ++out.degenerate;
+        bool const flat = !(triangle_height(triangle) > least_height);
+        if (flat) ++out.degenerate;
+        if (!flat || options.keep_flat) out.mesh.triangles.push_back(triangle);
     }
-    if (out.mesh.triangles.empty()) fail("{}: none of its {} triangles has an area", path, triangles.size());
+    if (out.degenerate == triangles.size()) fail("{}: none of its {} triangles has an area", path, triangles.size());
     return out;
 }
 }

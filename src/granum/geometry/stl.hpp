@@ -15,13 +15,15 @@ struct StlOptions
 {
     double scale = 1;                        //!< m per unit of length in the file: 1e-3 for millimetres
     Vec3 shift{};                            //!< added after scaling, m
-    std::size_t most_triangles = 2'000'000;  //!< more are refused
+    std::size_t most_triangles = 2'000'000;  //!< more are refused, of a binary file before it is read
+    bool keep_flat = false;                  //!< triangles without area stay in the mesh
 };
 
 struct StlMesh
 {
     Mesh mesh;
-    std::size_t degenerate = 0;  //!< triangles left out: lower than 1e-6 of the size of the mesh
+    std::size_t degenerate =
+        0;  //!< triangles without area: lower than 1e-6 of the size of the mesh; left out if not to be kept
 };
 
 //! Reads a file, or throws base::IoError with its path, the line or number of the triangle, and what is wrong:

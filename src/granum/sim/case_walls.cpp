@@ -95,7 +95,7 @@ struct WallReader
     void shape()
     {
         auto const kind = file.name(key + "shape", std::nullopt, "of the wall",
-                                    {"plane", "cylinder", "cone", "box", "disc", "stl"}, "a shape of a wall");
+                                    {"plane", "cylinder", "cone", "box", "disc", "sphere", "stl"}, "a shape of a wall");
         if (kind == "plane") {
             auto const at = point("point", "of the plane");
             body.shapes.push_back(
@@ -117,6 +117,12 @@ struct WallReader
                 0.5 * file.quantity(key + "hole", Dimension::length, 0, "diameter of the hole", io::not_negative);
             if (disc.hole >= disc.radius) file.mistake(key + "hole", "is not smaller than the disc");
             body.shapes.push_back(disc);
+        } else if (kind == "sphere") {
+            geometry::Sphere sphere;
+            sphere.centre = point("centre", "of the sphere");
+            sphere.radius = 0.5 * length("diameter", "of the sphere");
+            sphere.side = side();
+            body.shapes.push_back(sphere);
         } else if (kind == "stl") {
             mesh();
         }
@@ -141,6 +147,7 @@ struct WallReader
             return one_of({"base", "axis", "length", "base_diameter", "top_diameter", "side", "closed"});
         if (kind == "box") return one_of({"lower", "upper"});
         if (kind == "disc") return one_of({"centre", "normal", "diameter", "hole"});
+        if (kind == "sphere") return one_of({"centre", "diameter", "side"});
         return one_of({"file", "unit", "shift"});
     }
 

@@ -36,6 +36,17 @@ void add_band(io::Surface& out, Vec3 const& axis, Vec3 const& from, double from_
     }
 }
 
+//! Bands between circles of latitude.
+void add_sphere(io::Surface& out, geometry::Sphere const& sphere)
+{
+    constexpr int bands = pieces / 2;
+    Vec3 const axis{0, 0, 1};
+    auto const angle = [](int k) { return math::pi * k / bands; };
+    auto const radius = [&](int k) { return k == 0 || k == bands ? 0 : sphere.radius * std::sin(angle(k)); };
+    auto const height = [&](int k) { return sphere.centre - sphere.radius * std::cos(angle(k)) * axis; };
+    for (int k = 0; k < bands; ++k) add_band(out, axis, height(k), radius(k), height(k + 1), radius(k + 1));
+}
+
 void add(io::Surface& out, geometry::Shape const& shape)
 {
     if (auto const* flank = std::get_if<geometry::Frustum>(&shape)) {
@@ -43,6 +54,8 @@ void add(io::Surface& out, geometry::Shape const& shape)
                  flank->top_radius);
     } else if (auto const* disc = std::get_if<geometry::Disc>(&shape)) {
         add_band(out, disc->normal, disc->centre, disc->hole, disc->centre, disc->radius);
+    } else if (auto const* sphere = std::get_if<geometry::Sphere>(&shape)) {
+        add_sphere(out, *sphere);
     } else if (auto const* mesh = std::get_if<geometry::Mesh>(&shape)) {
         for (auto const& triangle : mesh->triangles) {
             int const first = static_cast<int>(out.corners.size());

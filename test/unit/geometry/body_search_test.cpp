@@ -149,6 +149,21 @@ TEST(ConcaveFacets, overlap_goes_on_where_the_nearest_facet_changes)
     }
 }
 
+TEST(SphereInABody, is_touched_once_and_together_with_a_plane_in_the_wedge_between_them)
+{
+    auto const bowl = of({Sphere{.centre = {0, 0, 1}, .radius = 1, .side = Side::inside}});
+    auto const in_bowl = touched(bowl, {0.3, 0, 0.3}, 0.4);
+    ASSERT_EQ(in_bowl.count, 1u);
+    EXPECT_NEAR(in_bowl.at[0].distance, 1 - std::hypot(0.3, 0.7), 1e-14);
+    EXPECT_EQ(touched(bowl, {0, 0, 1}, 0.4).count, 0u);
+    auto const ball =
+        of({Sphere{.centre = {0, 0, 1}, .radius = 1, .side = Side::outside}, Plane{{0, 0, 0}, {0, 0, 1}}});
+    auto const wedged = touched(ball, {0.85, 0, 0.19}, 0.2);
+    ASSERT_EQ(wedged.count, 2u);
+    EXPECT_NEAR(wedged.at[0].distance, std::hypot(0.85, 0.81) - 1, 1e-14);
+    EXPECT_NEAR(wedged.at[1].distance, 0.19, 1e-14);
+}
+
 TEST(ThinSheet, is_met_on_the_side_of_the_centre_and_around_its_edge)
 {
     auto const search = of({jittered_sheet({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 3, 3)});

@@ -1,6 +1,8 @@
 // Shapes: the nearest point from the face, the edge and behind.
 #include "granum/geometry/shape.hpp"
 
+#include "granum/geometry/body.hpp"
+
 #include "granum/math/constants.hpp"
 
 #include <gtest/gtest.h>
@@ -72,6 +74,43 @@ TEST(Frustum, that_ends_in_a_point_has_a_tip)
     EXPECT_EQ(above.feature, Feature::vertex);
     EXPECT_NEAR(above.distance, 0.5, 1e-15);
     expect_near(above.normal, {0, 0, 1});
+}
+
+TEST(SphereShape, is_met_along_its_radius_on_the_side_where_granules_are)
+{
+    // (2, 3, 6) has the length 7.
+    Vec3 const centre{1, -2, 3}, along = Vec3{2, 3, 6} / 7.0;
+    Sphere sphere{.centre = centre, .radius = 2, .side = Side::inside};
+    auto const within = nearest(sphere, centre + 1.75 * along);
+    EXPECT_NEAR(within.distance, 0.25, 1e-14);
+    expect_near(within.normal, -along);
+    expect_near(within.point, centre + 2.0 * along);
+    EXPECT_EQ(within.feature, Feature::face);
+    auto const behind = nearest(sphere, centre + 2.25 * along);
+    EXPECT_NEAR(behind.distance, -0.25, 1e-14);
+    expect_near(behind.normal, -along);
+    sphere.side = Side::outside;
+    EXPECT_NEAR(nearest(sphere, centre + 2.25 * along).distance, 0.25, 1e-14);
+    EXPECT_NEAR(nearest(sphere, centre + 1.75 * along).distance, -0.25, 1e-14);
+    expect_near(nearest(sphere, centre + 1.75 * along).normal, along);
+    sphere.side = Side::both;
+    for (double const away : {1.75, 2.25}) {
+        auto const thin = nearest(sphere, centre + away * along);
+        EXPECT_NEAR(thin.distance, 0.25, 1e-14);
+        expect_near(thin.normal, away < 2 ? -along : along);
+    }
+    EXPECT_DOUBLE_EQ(nearest(sphere, centre).distance, 2);
+    EXPECT_NEAR(norm(nearest(sphere, centre).normal), 1, 1e-15);
+}
+
+TEST(SphereShape, has_bounds_turns_in_place_about_its_centre_and_faces_with_its_circle)
+{
+    Body const body{.name = "ball", .shapes = {Sphere{.centre = {1, 2, 3}, .radius = 0.5}}};
+    EXPECT_EQ(bounds(body).lower, (Vec3{0.5, 1.5, 2.5}));
+    EXPECT_EQ(bounds(body).upper, (Vec3{1.5, 2.5, 3.5}));
+    EXPECT_NEAR(facing_area(body, {0.6, 0, 0.8}).value(), pi / 4, 1e-15);
+    EXPECT_TRUE(unmoved(body.shapes[0], {.point = {1, 2, -4}, .axis = {0, 0, 1}, .rate = 1}));
+    EXPECT_FALSE(unmoved(body.shapes[0], {.point = {1, 2.1, -4}, .axis = {0, 0, 1}, .rate = 1}));
 }
 
 TEST(Disc, is_met_from_both_sides_at_its_rim_and_at_its_hole)

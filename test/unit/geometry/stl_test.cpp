@@ -4,11 +4,11 @@
 #include "granum/base/error.hpp"
 #include "granum/geometry/body.hpp"
 #include "scene/meshes.hpp"
+#include "scene/stl_bytes.hpp"
 #include "scene/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -18,27 +18,6 @@ using namespace granum::scene;
 
 namespace
 {
-std::string little_endian(std::uint32_t value)
-{
-    std::string out;
-    for (int k = 0; k < 4; ++k) out += static_cast<char>((value >> (8 * k)) & 255);
-    return out;
-}
-
-std::string binary_stl(std::vector<Triangle> const& triangles, std::string comment = "made by a test")
-{
-    comment.resize(80, ' ');
-    std::string out = comment + little_endian(static_cast<std::uint32_t>(triangles.size()));
-    for (auto const& triangle : triangles) {
-        out += std::string(12, '\0');
-        for (auto const& corner : triangle)
-            for (std::size_t d = 0; d < 3; ++d)
-                out += little_endian(std::bit_cast<std::uint32_t>(static_cast<float>(corner[d])));
-        out += std::string(2, '\0');
-    }
-    return out;
-}
-
 std::string facet(std::string const& corner = "vertex 0 1 0")
 {
     return "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  " + corner + "\n endloop\nendfacet\n";

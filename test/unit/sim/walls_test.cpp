@@ -93,6 +93,23 @@ TEST(CaseWalls, of_a_turning_drum_carry_its_granules_and_feel_their_weight)
     EXPECT_GT(about / samples, -weight * 0.03);
 }
 
+TEST(CaseWalls, may_be_a_sphere)
+{
+    std::string text = drum;
+    auto const from = text.find("shape = \"cylinder\""), to = text.find("side = ");
+    text.replace(from, to - from,
+                 "shape = \"sphere\"\ncentre = [\"35 mm\", \"10 mm\", \"35 mm\"]\ndiameter = \"60 mm\"\n");
+    auto const data = scene::case_of(text);
+    auto const& sphere = std::get<geometry::Sphere>(data.walls.at(0).shapes.at(0));
+    EXPECT_EQ(sphere.centre, (Vec3{0.035, 0.01, 0.035}));
+    EXPECT_DOUBLE_EQ(sphere.radius, 0.03);
+    EXPECT_EQ(sphere.side, geometry::Side::inside);
+    // Drawn, its corners lie on it and its faces close it.
+    auto const surface = body_surface(data.walls[0], {});
+    for (auto const& corner : surface.corners) EXPECT_NEAR(norm(corner - sphere.centre), 0.03, 1e-15);
+    EXPECT_EQ(surface.faces.size(), 32u * 64);
+}
+
 TEST(CaseWalls, are_drawn_where_they_are)
 {
     geometry::Body body{.name = "funnel", .shapes = {}};
