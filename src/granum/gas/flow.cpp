@@ -16,6 +16,29 @@ constexpr double bearable_mismatch = 0.05;  // of a cell's mass against its equa
 constexpr int most_trials = 4;
 }
 
+std::vector<std::pair<std::string, Field*>> State::fields()
+{
+    return {{"mass", &mass},
+            {"vapour", &vapour},
+            {"tracer", &tracer},
+            {"enthalpy", &enthalpy},
+            {"velocity_x", &velocity[0]},
+            {"velocity_y", &velocity[1]},
+            {"velocity_z", &velocity[2]},
+            {"mass_flux_x", &mass_flux[0]},
+            {"mass_flux_y", &mass_flux[1]},
+            {"mass_flux_z", &mass_flux[2]},
+            {"earlier_flux_x", &earlier_flux[0]},
+            {"earlier_flux_y", &earlier_flux[1]},
+            {"earlier_flux_z", &earlier_flux[2]},
+            {"pressure", &pressure},
+            {"voidage", &voidage},
+            {"temperature", &temperature},
+            {"vapour_fraction", &vapour_fraction},
+            {"tracer_fraction", &tracer_fraction},
+            {"density", &density}};
+}
+
 void Sources::clear(grid::Grid const& grid)
 {
     for (Field* field :

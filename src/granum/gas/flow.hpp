@@ -42,6 +42,9 @@ struct State
     Field voidage;                    //!< of the open volume
     Field temperature, vapour_fraction, tracer_fraction, density;  //!< derived: K, kg/kg, kg/kg, kg/m3
     Range temperatures{}, vapour_fractions{}, tracer_fractions{};  //!< seen so far
+
+    //! All fields by name.
+    std::vector<std::pair<std::string, Field*>> fields();
 };
 
 //! What others do to the gas during one step; cleared by `clear`. Per cell, not per volume.

@@ -19,7 +19,7 @@ Openness openness(geometry::Chamber const& chamber)
                               Vec3 const& high) { return chamber.open_area(static_cast<int>(d), low, high); }};
 }
 
-Grid build(Openness const& space, Lines const& lines, Layout const& layout, par::Communicator const& comm)
+Grid frame(Lines const& lines, Layout const& layout, par::Communicator const& comm)
 {
     auto const& box = layout.box(comm.rank());
     Grid grid;
@@ -30,9 +30,14 @@ Grid build(Openness const& space, Lines const& lines, Layout const& layout, par:
     grid.lines = lines;
     for (std::size_t d = 0; d < 3; ++d) grid.axes[d] = Axis(lines[d], layout.periodic[d], box.lower[d], box.size(d));
     grid.halo = std::make_shared<Halo const>(layout, grid, comm.rank(), comm);
+    return grid;
+}
+
+Grid build(Openness const& space, Lines const& lines, Layout const& layout, par::Communicator const& comm)
+{
+    Grid grid = frame(lines, layout, comm);
     grid.open_volume = grid.make_field();
     grid.open_area = grid.make_face_field();
-
     auto const corner = [&](std::array<int, 3> const& cell, int upper) {
         return Vec3{grid.axes[0].face(cell[0] + upper), grid.axes[1].face(cell[1] + upper),
                     grid.axes[2].face(cell[2] + upper)};

@@ -20,7 +20,10 @@ struct Openness
 
 Openness openness(geometry::Chamber const& chamber);
 
-//! The cells of `rank`, with open volumes and areas, ghosts included. Ghosts beyond an end that is not periodic are
+//! The cells of this rank without open volumes and areas. Collective.
+Grid frame(Lines const& lines, Layout const& layout, par::Communicator const& comm);
+
+//! The cells of this rank, with open volumes and areas, ghosts included. Ghosts beyond an end that is not periodic are
 //! closed; faces at such an end are as open as the geometry says. A cell with less than 1e-5 of its volume open is
 //! closed with its faces.
 Grid build(Openness const& space, Lines const& lines, Layout const& layout, par::Communicator const& comm);

@@ -24,29 +24,6 @@ struct GasPart
     std::map<std::string, std::vector<double>> fields;
 };
 
-std::array<std::pair<char const*, grid::Field*>, 19> fields_of(gas::State& gas)
-{
-    return {{{"mass", &gas.mass},
-             {"vapour", &gas.vapour},
-             {"tracer", &gas.tracer},
-             {"enthalpy", &gas.enthalpy},
-             {"earlier_flux_x", &gas.earlier_flux[0]},
-             {"earlier_flux_y", &gas.earlier_flux[1]},
-             {"earlier_flux_z", &gas.earlier_flux[2]},
-             {"tracer_fraction", &gas.tracer_fraction},
-             {"velocity_x", &gas.velocity[0]},
-             {"velocity_y", &gas.velocity[1]},
-             {"velocity_z", &gas.velocity[2]},
-             {"mass_flux_x", &gas.mass_flux[0]},
-             {"mass_flux_y", &gas.mass_flux[1]},
-             {"mass_flux_z", &gas.mass_flux[2]},
-             {"pressure", &gas.pressure},
-             {"voidage", &gas.voidage},
-             {"temperature", &gas.temperature},
-             {"vapour_fraction", &gas.vapour_fraction},
-             {"density", &gas.density}}};
-}
-
 //! Calls visit for all numbers of the gas that are no fields.
 template <class Visit>
 void each_number(gas::State& gas, Visit&& visit)
@@ -173,7 +150,7 @@ io::Sections Simulation::save()
         std::vector<double> of_gas;
         each_number(gas_, [&](double number) { of_gas.push_back(number); });
         out.push_back(io::section_of("gas_numbers", of_gas));
-        for (auto const& [name, field] : fields_of(gas_))
+        for (auto const& [name, field] : gas_.fields())
             out.push_back(io::section_of("gas." + std::string(name), *field));
         out.push_back(io::section_of("gas.correction", solver_->correction()));
         auto const& memory = solver_->pressure_memory();
@@ -273,7 +250,7 @@ void Simulation::take_granules(Saved const& saved)
     granules_ = saved.granules;
     partition_ = saved.same_ranks && case_.gas.present
                      ? par::Partition({{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic}, saved.cuts)
-                     : partition(granules_.position.values);
+                     : partition(granules_.position.values, {});
     case_.granules.given.clear();
     fill_feeds();
     case_.granules.parcels = static_cast<long>(saved.common.at(0));
@@ -364,7 +341,7 @@ void Simulation::take_process(Saved const& saved)
         grid::refresh(grid_, {&field});
         return field;
     };
-    for (auto const& [name, field] : fields_of(gas_)) *field = gather("gas." + std::string(name));
+    for (auto const& [name, field] : gas_.fields()) *field = gather("gas." + std::string(name));
     std::optional<solve::Pressure::Memory> memory;
     if (saved.same_ranks && saved.preconditioner.size() >= 4) {
         auto const& numbers = saved.preconditioner;

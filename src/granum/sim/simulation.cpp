@@ -66,6 +66,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         watch.dissipated = watch.wall_work = {};
     }
     if (case_.gas.present) {
+        if (!saved && comm_.size() > 1) share_space(partition(granules_.position.values, {}));
         grid_ = grid::build(grid::openness(case_.chamber), lines_, grid::layout(*partition_, lines_), comm_);
         make_gas();
         if (!saved) start_gas();
@@ -74,22 +75,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         nozzles_ = nozzles(case_);
         flight_ = flight_settings(case_);
         drying_ = std::make_unique<drying::Drying>(drying_settings(case_));
-        around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank());
-        for (auto const& nozzle : nozzles_) {
-            double const cell = grid::widest_at(lines_, nozzle.position);
-            grid::Field share = grid_.make_field();
-            double sum = 0;
-            grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
-                share[c] =
-                    nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
-                sum += share[c];
-            });
-            sum = comm_.sum(sum);
-            base::require(sum > 0, "the air of the nozzle at ({}, {}, {}) m meets no open cell", nozzle.position.x,
-                          nozzle.position.y, nozzle.position.z);
-            for (double& s : share) s /= sum;
-            nozzle_weights_.push_back(std::move(share));
-        }
+        find_nozzle_cells();
         if (case_.start.quasi_steady && !saved) start_deposits();
     }
     if (saved) {
@@ -105,29 +91,6 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     ledgers_.water.reference = 0.01 * (case_.spray.rate + balance_.dry_mass_flow * balance_.outlet_humidity);
     ledgers_.energy.reference = std::max(1e-3 * std::abs(stock[2]), 1e-9);
     audit();
-}
-
-par::Partition Simulation::partition(std::vector<math::Vec3> const& places) const
-{
-    par::Space const space{{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic};
-    std::vector<math::Vec3> points = places;
-    std::vector<double> work(points.size(), 1.0);
-    if (!case_.gas.present) return par::Partition::balanced(space, points, work, comm_);
-
-    // A granule is moved many times in a gas step, in which a cell is solved for once.
-    constexpr double work_of_cell = 0.5;
-    auto const& [xs, ys, zs] = lines_;
-    auto const middle = [](std::vector<double> const& faces, std::size_t i) { return 0.5 * (faces[i] + faces[i + 1]); };
-    std::size_t const ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
-    for (std::size_t k = rank; k + 1 < zs.size(); k += ranks)
-        for (std::size_t j = 0; j + 1 < ys.size(); ++j)
-            for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-                math::Vec3 const centre{middle(xs, i), middle(ys, j), middle(zs, k)};
-                if (!case_.chamber.inside(centre)) continue;
-                points.push_back(centre);
-                work.push_back(work_of_cell);
-            }
-    return par::Partition::balanced(space, points, work, comm_, &lines_);
 }
 
 double Simulation::local_drying_potential(double temperature, double vapour_fraction) const
@@ -149,7 +112,10 @@ void Simulation::step(double longest)
     double const dt = longest < 1e300 ? longest / std::ceil(longest / wanted * (1 - 1e-9)) : wanted;
     int const substeps = std::max(1, static_cast<int>(std::ceil(dt / granule_dt_ * (1 - 1e-9))));
 
-    if (has_gas()) gas_step(dt);
+    if (has_gas()) {
+        balance_work(substeps);
+        gas_step(dt);
+    }
     mover_->advance(granules_, dt / substeps, substeps);
     if (hard_) granule_dt_ = hard_->next_step(granules_, dt, granule_dt_);
 
@@ -225,6 +191,27 @@ void Simulation::gas_step(double dt)
         }
     }
     if (case_.spray.present) engine_->changed(granules_);
+}
+
+void Simulation::find_nozzle_cells()
+{
+    around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank());
+    nozzle_weights_.clear();
+    for (auto const& nozzle : nozzles_) {
+        double const cell = grid::widest_at(lines_, nozzle.position);
+        grid::Field share = grid_.make_field();
+        double sum = 0;
+        grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
+            share[c] =
+                nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
+            sum += share[c];
+        });
+        sum = comm_.sum(sum);
+        base::require(sum > 0, "the air of the nozzle at ({}, {}, {}) m meets no open cell", nozzle.position.x,
+                      nozzle.position.y, nozzle.position.z);
+        for (double& s : share) s /= sum;
+        nozzle_weights_.push_back(std::move(share));
+    }
 }
 
 void Simulation::nozzle_air(double dt)

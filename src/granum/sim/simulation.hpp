@@ -109,9 +109,14 @@ class Simulation
     template <class Visit>
     void each_share(Visit&& visit);  //!< scalars of which every rank has its share
 
-    //! Space among ranks, so that cells and granules at `places`, of which each rank names its share, are as much work
-    //! for each. Collective.
-    par::Partition partition(std::vector<math::Vec3> const& places) const;
+    //! Space among ranks, so that cells and granules at `places` (of which each rank names its share) with their `work`
+    //! in steps of a granule (empty: as it may become) are as much for each. Collective.
+    par::Partition partition(std::vector<math::Vec3> places, std::vector<double> work) const;
+    void add_cells(std::vector<math::Vec3>& points, std::vector<double>& work) const;  //!< this rank's share of them
+    void share_space(par::Partition partition);
+    void balance_work(int substeps);  //!< cuts space anew where a rank has too much to do. Collective.
+    void move_gas();                  //!< to the ranks that have its cells now
+    void find_nozzle_cells();
     void place_granules();
     void make_gas();
     void start_gas();
