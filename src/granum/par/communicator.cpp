@@ -143,6 +143,14 @@ std::vector<std::vector<std::byte>> Communicator::deliver(std::vector<std::vecto
     return from_each;
 }
 
+void Communicator::share(std::span<float const> mine, std::span<float> all, std::span<int const> counts) const
+{
+    std::vector<int> starts(counts.size());
+    for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+    MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_FLOAT, all.data(), counts.data(), starts.data(),
+                   MPI_FLOAT, handle_);
+}
+
 std::vector<std::byte> Communicator::gather(std::span<std::byte const> mine) const
 {
     int const count = static_cast<int>(mine.size());

@@ -1,151 +1,251 @@
 #include "granum/solve/multigrid.hpp"
 
-#include "granum/base/error.hpp"
+#include "granum/base/vectorised.hpp"
+#include "granum/solve/gathering.hpp"
+#include "granum/solve/transfer.hpp"
 
-#include <HYPRE.h>
-#include <HYPRE_struct_ls.h>
-
-#include <array>
-#include <vector>
+#include <algorithm>
+#include <cstdlib>
 
 namespace granum::solve
 {
 namespace
 {
-//! Owned cells as hypre counts them: x fastest.
-template <class Visitor>
-void for_box(grid::Grid const& grid, Visitor&& visit)
+constexpr long few_cells = 4096;  // of all ranks: as many are done by each rank alone
+// A direction is paired if its links are above this part of the strongest direction's. No round number, so that no
+// grid's ratio of spacings meets it and round-off decides.
+constexpr double strong = 0.6180;
+
+//! Sweeps over one colour before and after the correction, by level.
+std::size_t sweeps(std::size_t level)
 {
-    for (int k = 0; k < grid.n[2]; ++k)
-        for (int j = 0; j < grid.n[1]; ++j)
-            for (int i = 0; i < grid.n[0]; ++i) visit(grid.at(i, j, k));
+    static std::size_t const s[3] = {std::getenv("S0") ? (std::size_t)atoi(std::getenv("S0")) : 3,std::getenv("S1") ? (std::size_t)atoi(std::getenv("S1")) : 4,std::getenv("S2") ? (std::size_t)atoi(std::getenv("S2")) : 8};
+    return s[std::min<std::size_t>(level,2)];
 }
 
-void start_hypre_once()
+//! Between a line of doubles and the cells of alternating colour, a stride apart in each colour.
+GRANUM_VECTORISED void split(int count, double scale, double const* __restrict line, float* __restrict one,
+                             float* __restrict other)
 {
-    static bool const started = [] { return HYPRE_Init() == 0; }();
-    base::require(started, "hypre does not start");
+    int const pairs = count / 2;
+#pragma GCC ivdep
+    for (int m = 0; m < pairs; ++m) {
+        one[m] = static_cast<float>(scale * line[2 * m]);
+        other[m] = static_cast<float>(scale * line[2 * m + 1]);
+    }
+    if (count % 2 != 0) one[pairs] = static_cast<float>(scale * line[2 * pairs]);
+}
+GRANUM_VECTORISED void join(int count, float const* __restrict one, float const* __restrict other,
+                            double* __restrict line)
+{
+    int const pairs = count / 2;
+#pragma GCC ivdep
+    for (int m = 0; m < pairs; ++m) {
+        line[2 * m] = static_cast<double>(one[m]);
+        line[2 * m + 1] = static_cast<double>(other[m]);
+    }
+    if (count % 2 != 0) line[2 * pairs] = static_cast<double>(one[pairs]);
 }
 }
 
 struct Multigrid::Inside
 {
+    //! A level and what leads to the next: pairs, or gathering on every rank.
+    struct Stage
+    {
+        std::unique_ptr<Level> level;
+        std::unique_ptr<Transfer> transfer;
+        std::unique_ptr<Gathering> gathering;
+    };
+
     grid::Grid const& grid;
     par::Communicator const& comm;
-    HYPRE_StructGrid cells = nullptr;
-    HYPRE_StructStencil stencil = nullptr;
-    HYPRE_StructMatrix matrix = nullptr;
-    HYPRE_StructVector right = nullptr, solution = nullptr;
-    HYPRE_StructSolver cycle = nullptr;
-    std::array<HYPRE_Int, 3> low{}, high{};
-    std::vector<double> packed;
+    std::vector<Stage> stages;
+    std::size_t depth = 0;  // stages in use
+    std::vector<Index> lines;  // number of the first cell
+    int length;
+    std::ptrdiff_t stride;
+    double scale = 1;  // of the residual
+    std::array<std::size_t, 3> order;
 
-    Inside(grid::Grid const& g, par::Communicator const& c) : grid(g), comm(c)
+    Inside(grid::Grid const& g, par::Communicator const& c)
+        : grid(g), comm(c), length(g.n[g.order[0]]), order(grid::Shape(g.global).order)
     {
-        start_hypre_once();
+        stages.emplace_back(std::make_unique<Level>(grid.halo->layout(), comm.rank(), order, comm));
+        Level const& finest = *stages[0].level;
+        stride = finest.strides[grid.order[0]];
+        for (auto const& line : grid::runs(grid, [](int, int, int, Index) { return true; })) {
+            std::array<int, 3> cell{};
+            auto rest = static_cast<std::ptrdiff_t>(line.first);
+            for (int k = 2; k >= 0; --k) {
+                auto const d = grid.order[static_cast<std::size_t>(k)];
+                cell[d] = static_cast<int>(rest / grid.strides[d]) - 1;
+                rest %= grid.strides[d];
+            }
+            lines.push_back(finest.number(cell));
+        }
+    }
+
+    void take_line(std::size_t line, double factor, double const* from, Values& to) const
+    {
+        Level const& level = *stages[0].level;
+        auto const first = static_cast<std::ptrdiff_t>(lines[line]);
+        float* const one = to.data() + level.place(static_cast<Index>(first));
+        float* const other = to.data() + level.place(static_cast<Index>(first + stride));
+        if (stride == 1) {
+            split(length, factor, from, one, other);
+            return;
+        }
+        for (int m = 0; m < length; ++m)
+            (m % 2 == 0 ? one : other)[m / 2 * stride] = static_cast<float>(factor * from[m]);
+    }
+
+    Directions strongly_coupled(Level const& level, std::array<double, 3> sums) const
+    {
+        double most = 0;
         for (std::size_t d = 0; d < 3; ++d) {
-            low[d] = grid.shift[d];
-            high[d] = grid.shift[d] + grid.n[d] - 1;
+            int const cells = level.layout.cells[d], faces = level.layout.periodic[d] ? cells : cells - 1;
+            sums[d] = cells > 1 ? sums[d] / faces * cells : 0;
+            most = std::max(most, sums[d]);
         }
-        HYPRE_StructGridCreate(comm.handle(), 3, &cells);
-        HYPRE_StructGridSetExtents(cells, low.data(), high.data());
-        std::array<HYPRE_Int, 3> period{};
-        for (std::size_t d = 0; d < 3; ++d) period[d] = grid.periodic[d] && grid.global[d] > 1 ? grid.global[d] : 0;
-        HYPRE_StructGridSetPeriodic(cells, period.data());
-        HYPRE_StructGridAssemble(cells);
+        Directions out{};
+        for (std::size_t d = 0; d < 3; ++d) out[d] = sums[d] > 0 && sums[d] >= strong * most;
+        return out;
+    }
 
-        // Symmetric storage: the cell itself and its upper neighbours.
-        HYPRE_StructStencilCreate(3, 4, &stencil);
-        HYPRE_Int offsets[4][3]{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        for (int entry = 0; entry < 4; ++entry) HYPRE_StructStencilSetElement(stencil, entry, offsets[entry]);
-
-        for (HYPRE_StructVector* vector : {&right, &solution}) {
-            HYPRE_StructVectorCreate(comm.handle(), cells, vector);
-            HYPRE_StructVectorInitialize(*vector);
-            HYPRE_StructVectorAssemble(*vector);
+    void set_up(System const& system, Facts const& facts)
+    {
+        Level& finest = *stages[0].level;
+        double const unit = 1 / facts.diagonal;
+        scale = 1 / facts.right;
+        for (std::size_t d = 0; d < 3; ++d)
+            if (!finest.idle(d))
+                for (std::size_t line = 0; line < lines.size(); ++line)
+                    take_line(line, unit, system.link[d].data() + grid_line(line), finest.link[d]);
+        for (std::size_t line = 0; line < lines.size(); ++line)
+            take_line(line, unit, system.extra.data() + grid_line(line), finest.extra);
+        auto sums = finest.close();
+        bool alone = comm.size() == 1;
+        for (depth = 1;; ++depth) {
+            Level& fine = *stages[depth - 1].level;
+            if (fine.cells() <= 1) break;
+            if (!alone) comm.sum(sums);
+            if (!alone && depth > 1 && fine.cells() <= few_cells) {
+                gather(depth);
+                sums = stages[depth].level->close();
+                alone = true;
+                continue;
+            }
+            auto const paired = strongly_coupled(fine, sums);
+            if (paired == Directions{}) break;
+            coarsen(depth, paired, alone);
+            Level& coarse = *stages[depth].level;
+            stages[depth - 1].transfer->aggregate(fine, coarse);
+            sums = coarse.close();
         }
-        packed.resize(static_cast<std::size_t>(grid.n[0]) * grid.n[1] * grid.n[2] * 4);
     }
-    ~Inside()
-    {
-        drop();
-        HYPRE_StructVectorDestroy(right);
-        HYPRE_StructVectorDestroy(solution);
-        HYPRE_StructStencilDestroy(stencil);
-        HYPRE_StructGridDestroy(cells);
-    }
-    Inside(Inside const&) = delete;
-    Inside& operator=(Inside const&) = delete;
 
-    void drop()
+    void gather(std::size_t next)
     {
-        if (cycle) HYPRE_StructPFMGDestroy(cycle);
-        if (matrix) HYPRE_StructMatrixDestroy(matrix);
-        cycle = nullptr;
-        matrix = nullptr;
+        Stage& stage = stages[next - 1];
+        if (!stage.gathering) {
+            stages.resize(next);
+            Stage& again = stages[next - 1];
+            again.transfer.reset();
+            auto whole = again.level->layout;
+            whole.boxes = {grid::CellBox{{}, whole.cells}};
+            stages.push_back({std::make_unique<Level>(whole, 0, order, comm), nullptr, nullptr});
+            stages[next - 1].gathering = std::make_unique<Gathering>(*stages[next - 1].level, comm);
+        }
+        stages[next - 1].gathering->aggregate(*stages[next - 1].level, *stages[next].level);
+    }
+
+    void coarsen(std::size_t next, Directions const& paired, bool alone)
+    {
+        if (stages.size() > next && stages[next - 1].transfer && stages[next - 1].transfer->paired() == paired) return;
+        stages.resize(next);
+        Stage& stage = stages[next - 1];
+        stage.gathering.reset();
+        stage.transfer = std::make_unique<Transfer>(*stage.level, paired);
+        auto level =
+            std::make_unique<Level>(coarser(stage.level->layout, paired), alone ? 0 : comm.rank(), order, comm);
+        stages.push_back({std::move(level), nullptr, nullptr});
+    }
+
+    Index grid_line(std::size_t line) const { return runs[line]; }
+    std::vector<Index> runs;
+
+    void cycle(std::size_t at)
+    {
+        Level& level = *stages[at].level;
+        if (at + 1 == depth) {
+            level.start(0);
+            for (std::size_t s = 1; s < 9; ++s) {
+                level.refresh(level.x, (s + 1) % 2);
+                level.relax(s % 2);
+            }
+            return;
+        }
+        Level& next = *stages[at + 1].level;
+        if (stages[at].gathering) {
+            stages[at].gathering->restrict(level, next);
+            cycle(at + 1);
+            stages[at].gathering->prolong(next, level);
+            return;
+        }
+        std::size_t const count = sweeps(at);
+        level.start(0);
+        level.refresh(level.x, 0);
+        for (std::size_t s = 1; s < count; ++s) {
+            level.relax(s % 2);
+            level.refresh(level.x, s % 2);
+        }
+        std::size_t const lacking = count % 2;
+        level.find_residual(lacking);
+        stages[at].transfer->restrict(level, next, lacking);
+        cycle(at + 1);
+        stages[at].transfer->prolong(next, level, lacking);
+        for (std::size_t s = count; s-- > 0;) {
+            level.refresh(level.x, (s + 1) % 2);
+            level.relax(s % 2);
+        }
     }
 };
 
 Multigrid::Multigrid(grid::Grid const& grid, par::Communicator const& comm)
     : inside_(std::make_unique<Inside>(grid, comm))
 {
+    for (auto const& line : grid::runs(grid, [](int, int, int, Index) { return true; })) inside_->runs.push_back(line.first);
 }
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::suits(grid::Grid const& grid)
+void Multigrid::set_up(System const& system, Field const&, Facts const& facts)
 {
-    for (std::size_t d = 0; d < 3; ++d)
-        if (grid.periodic[d] && (grid.global[d] & (grid.global[d] - 1)) != 0) return false;
-    return true;
+    inside_->set_up(system, facts);
 }
 
-void Multigrid::set_up(grid::Field const& diagonal, grid::FaceField const& link)
+void Multigrid::take(std::size_t line, double const* residual)
 {
-    Inside& in = *inside_;
-    in.drop();
-    HYPRE_StructMatrixCreate(in.comm.handle(), in.cells, in.stencil, &in.matrix);
-    HYPRE_StructMatrixSetSymmetric(in.matrix, 1);
-    HYPRE_StructMatrixInitialize(in.matrix);
-    std::size_t next = 0;
-    for_box(in.grid, [&](grid::Index cell) {
-        double const own = diagonal[cell];
-        in.packed[next++] = own > 0 ? own : 1;  // a cell left out stands alone
-        for (std::size_t d = 0; d < 3; ++d)
-            in.packed[next++] = in.grid.periodic[d] && in.grid.global[d] == 1 ? 0 : -link[d][in.grid.next(cell, d)];
-    });
-    HYPRE_Int entries[4]{0, 1, 2, 3};
-    HYPRE_StructMatrixSetBoxValues(in.matrix, in.low.data(), in.high.data(), 4, entries, in.packed.data());
-    HYPRE_StructMatrixAssemble(in.matrix);
-
-    HYPRE_StructPFMGCreate(in.comm.handle(), &in.cycle);
-    HYPRE_StructPFMGSetMaxIter(in.cycle, 1);
-    HYPRE_StructPFMGSetTol(in.cycle, 0.0);
-    HYPRE_StructPFMGSetZeroGuess(in.cycle);
-    // Symmetric, as conjugate gradients ask: red-black, but weighted Jacobi in a periodic box, whose coarsest cells are
-    // their own neighbours and have no two colours: red-black does not converge there.
-    bool const wraps = in.grid.periodic[0] || in.grid.periodic[1] || in.grid.periodic[2];
-    HYPRE_StructPFMGSetRelaxType(in.cycle, wraps ? 1 : 2);
-    HYPRE_StructPFMGSetRAPType(in.cycle, 0);
-    HYPRE_StructPFMGSetSkipRelax(in.cycle, 1);
-    HYPRE_StructPFMGSetNumPreRelax(in.cycle, 1);
-    HYPRE_StructPFMGSetNumPostRelax(in.cycle, 1);
-    HYPRE_StructPFMGSetPrintLevel(in.cycle, 0);
-    HYPRE_StructPFMGSetLogging(in.cycle, 0);
-    HYPRE_StructPFMGSetup(in.cycle, in.matrix, in.right, in.solution);
-    HYPRE_ClearAllErrors();
+    inside_->take_line(line, inside_->scale, residual, inside_->stages[0].level->right);
 }
 
-void Multigrid::apply(grid::Field const& from, grid::Field& to)
+double Multigrid::apply()
 {
-    Inside& in = *inside_;
-    std::size_t next = 0;
-    for_box(in.grid, [&](grid::Index cell) { in.packed[next++] = from[cell]; });
-    HYPRE_StructVectorSetBoxValues(in.right, in.low.data(), in.high.data(), in.packed.data());
-    HYPRE_StructVectorSetConstantValues(in.solution, 0.0);
-    HYPRE_StructPFMGSolve(in.cycle, in.matrix, in.right, in.solution);
-    HYPRE_ClearAllErrors();  // one cycle never "converges"; the outer iteration judges
-    HYPRE_StructVectorGetBoxValues(in.solution, in.low.data(), in.high.data(), in.packed.data());
-    next = 0;
-    for_box(in.grid, [&](grid::Index cell) { to[cell] = in.packed[next++]; });
+    inside_->cycle(0);
+    return inside_->stages[0].level->dot() / inside_->scale;
+}
+
+void Multigrid::give(std::size_t line, double* result) const
+{
+    Inside const& in = *inside_;
+    Level const& level = *in.stages[0].level;
+    auto const first = static_cast<std::ptrdiff_t>(in.lines[line]);
+    float const* const one = level.x.data() + level.place(static_cast<Index>(first));
+    float const* const other = level.x.data() + level.place(static_cast<Index>(first + in.stride));
+    if (in.stride == 1) {
+        join(in.length, one, other, result);
+        return;
+    }
+    for (int m = 0; m < in.length; ++m) result[m] = static_cast<double>((m % 2 == 0 ? one : other)[m / 2 * in.stride]);
 }
 }
