@@ -24,14 +24,14 @@ struct Around
     }
 };
 
-GRANUM_VECTORISED void relax_run(Index first, Index end, Around const around, float const* __restrict inverse,
+GRANUM_VECTORISED void relax_run(Index first, Index end, Around const& around, float const* __restrict inverse,
                                  float const* __restrict right, float* __restrict x)
 {
 #pragma GCC ivdep
     for (Index m = first; m < end; ++m) x[m] = inverse[m] * (right[m] + around.sum(m));
 }
 
-GRANUM_VECTORISED void residual_run(Index first, Index end, Around const around, float const* __restrict diagonal,
+GRANUM_VECTORISED void residual_run(Index first, Index end, Around const& around, float const* __restrict diagonal,
                                     float const* __restrict inverse, float const* __restrict right,
                                     float const* __restrict x, float* __restrict residual)
 {
@@ -48,7 +48,7 @@ GRANUM_VECTORISED void start_run(Index first, Index end, float const* __restrict
     for (Index m = first; m < end; ++m) x[m] = inverse[m] * right[m];
 }
 
-GRANUM_VECTORISED void close_run(Index first, Index end, Around const around, float const* __restrict extra,
+GRANUM_VECTORISED void close_run(Index first, Index end, Around const& around, float const* __restrict extra,
                                  float* __restrict diagonal, float* __restrict inverse)
 {
 #pragma GCC ivdep
@@ -58,14 +58,14 @@ GRANUM_VECTORISED void close_run(Index first, Index end, Around const around, fl
     }
 }
 
-GRANUM_VECTORISED double dot_run(Index first, Index end, float const* __restrict a, float const* __restrict b)
-{
-    return sum_of(first, end, [=](Index m) { return static_cast<double>(a[m]) * static_cast<double>(b[m]); });
-}
-
 GRANUM_VECTORISED double sum_run(Index first, Index end, float const* __restrict a)
 {
-    return sum_of(first, end, [=](Index m) { return static_cast<double>(a[m]); });
+    return sum(first, end, a);
+}
+
+GRANUM_VECTORISED double dot_run(Index first, Index end, float const* __restrict a, float const* __restrict b)
+{
+    return dot(first, end, a, b);
 }
 }
 
@@ -77,7 +77,7 @@ Level::Level(grid::Layout const& cells_of_ranks, int rank, std::array<std::size_
     for (std::size_t d = 0; d < 3; ++d) {
         n[d] = layout.box(rank).size(d);
         sum += lower[d];
-        wraps_odd_ = wraps_odd_ || (layout.periodic[d] && layout.cells[d] > 1 && layout.cells[d] % 2 == 1);
+        meets_itself_ = meets_itself_ || (layout.periodic[d] && layout.cells[d] > 1 && layout.cells[d] % 2 == 1);
     }
     auto const [a, b, c] = order;
     strides[a] = 1;
@@ -134,7 +134,8 @@ std::array<double, 3> Level::close()
             Index const at = colour * half_;
             close_run(row.first, row.end, around(*this, half_, colour), extra.data() + at, diagonal.data() + at,
                       inverse.data() + at);
-            for (std::size_t d = 0; d < 3; ++d) sums[d] += sum_run(row.first, row.end, link[d].data() + at);
+            for (std::size_t d = 0; d < 3; ++d)
+                sums[d] += sum_run(row.first, row.end, link[d].data() + at);
         }
     });
     return sums;
@@ -142,7 +143,7 @@ std::array<double, 3> Level::close()
 
 void Level::start(std::size_t colour)
 {
-    if (wraps_odd_) std::fill(x.begin(), x.end(), 0.0f);  // ghosts of the other colour's cells are asked for first
+    if (meets_itself_) std::fill(x.begin(), x.end(), 0.0f);  // ghosts of the other colour's cells are asked for first
     Index const at = colour * half_;
     start_run(all_[colour].first, all_[colour].end, inverse.data() + at, right.data() + at, x.data() + at);
 }
@@ -159,6 +160,14 @@ void Level::find_residual(std::size_t colour)
     Index const at = colour * half_;
     residual_run(all_[colour].first, all_[colour].end, around(*this, half_, colour), diagonal.data() + at,
                  inverse.data() + at, right.data() + at, x.data() + at, residual.data() + at);
+}
+
+void Level::refresh(Values& field, std::size_t colour) const
+{
+    if (meets_itself_)  // a sweep has passed over ghosts that stand for cells of the other colour
+        exchange_->refresh({&field});
+    else
+        exchange_->refresh(field, colour);
 }
 
 double Level::dot() const

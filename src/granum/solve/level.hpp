@@ -36,6 +36,9 @@ class Level
     Index place(Index number) const { return (number >> 1) + (number & 1) * half_; }
 
     long cells() const { return static_cast<long>(layout.cells[0]) * layout.cells[1] * layout.cells[2]; }
+    //! Whether cells of the same colour meet over some periodic face. In a sweep over their colour, these see what the
+    //! others were before.
+    bool meets_itself() const { return meets_itself_; }
     //! Whether the links of a direction lead from cells to themselves.
     bool idle(std::size_t d) const { return layout.periodic[d] && layout.cells[d] == 1; }
 
@@ -58,8 +61,8 @@ class Level
     void find_residual(std::size_t colour);
     //! Right side times x, of this rank.
     double dot() const;
-    //! Fills ghosts that are copies of cells of one colour. Collective.
-    void refresh(Values& field, std::size_t colour) const { exchange_->refresh(field, colour); }
+    //! Fills ghosts after the cells of one colour have changed. Collective.
+    void refresh(Values& field, std::size_t colour) const;
 
   private:
     struct Span
@@ -70,7 +73,7 @@ class Level
 
     std::ptrdiff_t origin_ = 0;
     Index half_ = 0;
-    bool wraps_odd_ = false;  // over some periodic face cells of the same colour meet
+    bool meets_itself_ = false;
     std::array<Span, 2> all_{};
     std::optional<Exchange> exchange_;
 };

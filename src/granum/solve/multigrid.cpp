@@ -5,27 +5,20 @@
 #include "granum/solve/transfer.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace granum::solve
 {
 namespace
 {
-constexpr long few_cells = 4096;  // of all ranks: as many are done by each rank alone
-// A direction is paired if its links are above this part of the strongest direction's. No round number, so that no
-// grid's ratio of spacings meets it and round-off decides.
+// Directions are paired whose links are above this part of the strongest direction's. No round number, so that no
+// common ratio of spacings meets it, where round-off would decide.
 constexpr double strong = 0.6180;
+//! Sweeps over one colour before the correction, and as many after it: on the finest level, on others, on the last.
+constexpr std::size_t finest_sweeps = 3, sweeps = 6, last_sweeps = 9;
 
-//! Sweeps over one colour before and after the correction, by level.
-std::size_t sweeps(std::size_t level)
-{
-    static std::size_t const s[3] = {std::getenv("S0") ? (std::size_t)atoi(std::getenv("S0")) : 3,std::getenv("S1") ? (std::size_t)atoi(std::getenv("S1")) : 4,std::getenv("S2") ? (std::size_t)atoi(std::getenv("S2")) : 8};
-    return s[std::min<std::size_t>(level,2)];
-}
-
-//! Between a line of doubles and the cells of alternating colour, a stride apart in each colour.
-GRANUM_VECTORISED void split(int count, double scale, double const* __restrict line, float* __restrict one,
-                             float* __restrict other)
+//! From a line of doubles to cells of alternating colour, and back.
+GRANUM_VECTORISED void deal(int count, double scale, double const* __restrict line, float* __restrict one,
+                            float* __restrict other)
 {
     int const pairs = count / 2;
 #pragma GCC ivdep
@@ -46,144 +39,145 @@ GRANUM_VECTORISED void join(int count, float const* __restrict one, float const*
     }
     if (count % 2 != 0) line[2 * pairs] = static_cast<double>(one[pairs]);
 }
+
+//! A level and what leads to the next one: pairs of cells, or gathering on every rank.
+struct Stage
+{
+    std::unique_ptr<Level> level;
+    std::unique_ptr<Transfer> transfer;
+    std::unique_ptr<Gathering> gathering;
+};
+
+Directions strongly_coupled(Level const& level, std::array<double, 3> const& links)
+{
+    std::array<double, 3> per_cell{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        int const cells = level.layout.cells[d], faces = level.layout.periodic[d] ? cells : cells - 1;
+        if (cells > 1) per_cell[d] = links[d] * cells / faces;
+    }
+    double const most = std::max({per_cell[0], per_cell[1], per_cell[2]});
+    Directions out{};
+    for (std::size_t d = 0; d < 3; ++d) out[d] = most > 0 && per_cell[d] >= strong * most;
+    return out;
+}
 }
 
 struct Multigrid::Inside
 {
-    //! A level and what leads to the next: pairs, or gathering on every rank.
-    struct Stage
+    //! A line of the grid's owned cells.
+    struct Line
     {
-        std::unique_ptr<Level> level;
-        std::unique_ptr<Transfer> transfer;
-        std::unique_ptr<Gathering> gathering;
+        Index here;   // its first cell in fields of the grid
+        Index there;  // number of that in the finest level
     };
 
-    grid::Grid const& grid;
     par::Communicator const& comm;
-    std::vector<Stage> stages;
-    std::size_t depth = 0;  // stages in use
-    std::vector<Index> lines;  // number of the first cell
-    int length;
-    std::ptrdiff_t stride;
-    double scale = 1;  // of the residual
-    std::array<std::size_t, 3> order;
+    long few;
+    std::array<std::size_t, 3> order;  // of directions in memory, on all levels and ranks
+    std::vector<Stage> stages;         // kept from solve to solve where the same directions are paired
+    std::size_t depth = 0;             // of them in use
+    std::vector<Line> lines;
+    int length;             // of a line
+    std::ptrdiff_t stride;  // along a line in the finest level
+    double scale = 1;       // of residuals
 
-    Inside(grid::Grid const& g, par::Communicator const& c)
-        : grid(g), comm(c), length(g.n[g.order[0]]), order(grid::Shape(g.global).order)
+    Inside(grid::Grid const& grid, par::Communicator const& ranks, long few_cells)
+        : comm(ranks), few(few_cells), order(grid::Shape(grid.global).order), length(grid.n[grid.order[0]])
     {
-        stages.emplace_back(std::make_unique<Level>(grid.halo->layout(), comm.rank(), order, comm));
-        Level const& finest = *stages[0].level;
-        stride = finest.strides[grid.order[0]];
-        for (auto const& line : grid::runs(grid, [](int, int, int, Index) { return true; })) {
-            std::array<int, 3> cell{};
-            auto rest = static_cast<std::ptrdiff_t>(line.first);
-            for (int k = 2; k >= 0; --k) {
-                auto const d = grid.order[static_cast<std::size_t>(k)];
-                cell[d] = static_cast<int>(rest / grid.strides[d]) - 1;
-                rest %= grid.strides[d];
-            }
-            lines.push_back(finest.number(cell));
-        }
+        append(grid.halo->layout(), comm.rank());
+        stride = finest().strides[grid.order[0]];
+        std::array<int, 3> low{}, high{grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1};
+        high[grid.order[0]] = 0;
+        grid::for_each_cell(grid, low, high, [&](int i, int j, int k, Index cell) {
+            lines.push_back({.here = cell, .there = finest().number({i, j, k})});
+        });
     }
 
-    void take_line(std::size_t line, double factor, double const* from, Values& to) const
+    Level& finest() const { return *stages.front().level; }
+
+    void append(grid::Layout const& layout, int rank)
     {
-        Level const& level = *stages[0].level;
-        auto const first = static_cast<std::ptrdiff_t>(lines[line]);
-        float* const one = to.data() + level.place(static_cast<Index>(first));
-        float* const other = to.data() + level.place(static_cast<Index>(first + stride));
-        if (stride == 1) {
-            split(length, factor, from, one, other);
-            return;
-        }
-        for (int m = 0; m < length; ++m)
-            (m % 2 == 0 ? one : other)[m / 2 * stride] = static_cast<float>(factor * from[m]);
+        stages.push_back({std::make_unique<Level>(layout, rank, order, comm), nullptr, nullptr});
     }
 
-    Directions strongly_coupled(Level const& level, std::array<double, 3> sums) const
+    void take(Line const& line, double factor, double const* from, Values& to) const
     {
-        double most = 0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            int const cells = level.layout.cells[d], faces = level.layout.periodic[d] ? cells : cells - 1;
-            sums[d] = cells > 1 ? sums[d] / faces * cells : 0;
-            most = std::max(most, sums[d]);
-        }
-        Directions out{};
-        for (std::size_t d = 0; d < 3; ++d) out[d] = sums[d] > 0 && sums[d] >= strong * most;
-        return out;
+        float* const one = to.data() + finest().place(line.there);
+        float* const other = to.data() + finest().place(line.there + static_cast<Index>(stride));
+        if (stride == 1)
+            deal(length, factor, from, one, other);
+        else
+            for (int m = 0; m < length; ++m) (m % 2 == 0 ? one : other)[m / 2 * stride] = static_cast<float>(factor * from[m]);
+    }
+
+    void give(Line const& line, double* to) const
+    {
+        float const* const one = finest().x.data() + finest().place(line.there);
+        float const* const other = finest().x.data() + finest().place(line.there + static_cast<Index>(stride));
+        if (stride == 1)
+            join(length, one, other, to);
+        else
+            for (int m = 0; m < length; ++m) to[m] = static_cast<double>((m % 2 == 0 ? one : other)[m / 2 * stride]);
     }
 
     void set_up(System const& system, Facts const& facts)
     {
-        Level& finest = *stages[0].level;
+        // Numbers near one: single precision has a narrow range.
         double const unit = 1 / facts.diagonal;
         scale = 1 / facts.right;
-        for (std::size_t d = 0; d < 3; ++d)
-            if (!finest.idle(d))
-                for (std::size_t line = 0; line < lines.size(); ++line)
-                    take_line(line, unit, system.link[d].data() + grid_line(line), finest.link[d]);
-        for (std::size_t line = 0; line < lines.size(); ++line)
-            take_line(line, unit, system.extra.data() + grid_line(line), finest.extra);
-        auto sums = finest.close();
+        for (auto const& line : lines) {
+            for (std::size_t d = 0; d < 3; ++d)
+                if (!finest().idle(d)) take(line, unit, system.link[d].data() + line.here, finest().link[d]);
+            take(line, unit, system.extra.data() + line.here, finest().extra);
+        }
+        auto links = finest().close();
         bool alone = comm.size() == 1;
         for (depth = 1;; ++depth) {
-            Level& fine = *stages[depth - 1].level;
-            if (fine.cells() <= 1) break;
-            if (!alone) comm.sum(sums);
-            if (!alone && depth > 1 && fine.cells() <= few_cells) {
-                gather(depth);
-                sums = stages[depth].level->close();
+            if (!alone) comm.sum(links);
+            Level const& fine = *stages[depth - 1].level;
+            if (!alone && depth > 1 && fine.cells() <= few) {
+                gather();
                 alone = true;
-                continue;
+            } else {
+                auto const paired = strongly_coupled(fine, links);
+                if (paired == Directions{}) break;
+                coarsen(paired, alone ? 0 : comm.rank());
             }
-            auto const paired = strongly_coupled(fine, sums);
-            if (paired == Directions{}) break;
-            coarsen(depth, paired, alone);
-            Level& coarse = *stages[depth].level;
-            stages[depth - 1].transfer->aggregate(fine, coarse);
-            sums = coarse.close();
+            links = stages[depth].level->close();
         }
     }
 
-    void gather(std::size_t next)
+    //! Makes links and extras of the next stage. What leads to it is made anew where it is not what it was.
+    void gather()
     {
-        Stage& stage = stages[next - 1];
-        if (!stage.gathering) {
-            stages.resize(next);
-            Stage& again = stages[next - 1];
-            again.transfer.reset();
-            auto whole = again.level->layout;
+        if (!stages[depth - 1].gathering) {
+            stages.resize(depth);
+            auto whole = stages.back().level->layout;
             whole.boxes = {grid::CellBox{{}, whole.cells}};
-            stages.push_back({std::make_unique<Level>(whole, 0, order, comm), nullptr, nullptr});
-            stages[next - 1].gathering = std::make_unique<Gathering>(*stages[next - 1].level, comm);
+            stages.back().transfer.reset();
+            stages.back().gathering = std::make_unique<Gathering>(*stages.back().level, comm);
+            append(whole, 0);
         }
-        stages[next - 1].gathering->aggregate(*stages[next - 1].level, *stages[next].level);
+        stages[depth - 1].gathering->aggregate(*stages[depth - 1].level, *stages[depth].level);
     }
-
-    void coarsen(std::size_t next, Directions const& paired, bool alone)
+    void coarsen(Directions const& paired, int rank)
     {
-        if (stages.size() > next && stages[next - 1].transfer && stages[next - 1].transfer->paired() == paired) return;
-        stages.resize(next);
-        Stage& stage = stages[next - 1];
-        stage.gathering.reset();
-        stage.transfer = std::make_unique<Transfer>(*stage.level, paired);
-        auto level =
-            std::make_unique<Level>(coarser(stage.level->layout, paired), alone ? 0 : comm.rank(), order, comm);
-        stages.push_back({std::move(level), nullptr, nullptr});
+        if (!stages[depth - 1].transfer || stages[depth - 1].transfer->paired() != paired) {
+            stages.resize(depth);
+            auto const layout = coarser(stages.back().level->layout, paired);
+            stages.back().gathering.reset();
+            stages.back().transfer = std::make_unique<Transfer>(*stages.back().level, paired);
+            append(layout, rank);
+        }
+        stages[depth - 1].transfer->aggregate(*stages[depth - 1].level, *stages[depth].level);
     }
 
-    Index grid_line(std::size_t line) const { return runs[line]; }
-    std::vector<Index> runs;
-
+    //! x of a level from its right side: approximately, and as a symmetric positive operator.
     void cycle(std::size_t at)
     {
         Level& level = *stages[at].level;
         if (at + 1 == depth) {
-            level.start(0);
-            for (std::size_t s = 1; s < 9; ++s) {
-                level.refresh(level.x, (s + 1) % 2);
-                level.relax(s % 2);
-            }
+            smooth_down(level, last_sweeps);
             return;
         }
         Level& next = *stages[at + 1].level;
@@ -193,15 +187,12 @@ struct Multigrid::Inside
             stages[at].gathering->prolong(next, level);
             return;
         }
-        std::size_t const count = sweeps(at);
-        level.start(0);
-        level.refresh(level.x, 0);
-        for (std::size_t s = 1; s < count; ++s) {
-            level.relax(s % 2);
-            level.refresh(level.x, s % 2);
-        }
-        std::size_t const lacking = count % 2;
-        level.find_residual(lacking);
+        std::size_t const count = at == 0 ? finest_sweeps : sweeps;
+        smooth_down(level, count);
+        // The colour solved for last has no residual, and needs no correction as it is solved for next.
+        std::array<std::size_t, 2> const both{count % 2, (count + 1) % 2};
+        Colours const lacking(both.data(), level.meets_itself() ? 2 : 1);
+        for (auto const colour : lacking) level.find_residual(colour);
         stages[at].transfer->restrict(level, next, lacking);
         cycle(at + 1);
         stages[at].transfer->prolong(next, level, lacking);
@@ -210,12 +201,21 @@ struct Multigrid::Inside
             level.relax(s % 2);
         }
     }
+
+    static void smooth_down(Level& level, std::size_t count)
+    {
+        level.start(0);
+        for (std::size_t s = 1; s < count; ++s) {
+            level.refresh(level.x, (s + 1) % 2);
+            level.relax(s % 2);
+        }
+        level.refresh(level.x, (count + 1) % 2);
+    }
 };
 
-Multigrid::Multigrid(grid::Grid const& grid, par::Communicator const& comm)
-    : inside_(std::make_unique<Inside>(grid, comm))
+Multigrid::Multigrid(grid::Grid const& grid, par::Communicator const& comm, long few)
+    : inside_(std::make_unique<Inside>(grid, comm, few))
 {
-    for (auto const& line : grid::runs(grid, [](int, int, int, Index) { return true; })) inside_->runs.push_back(line.first);
 }
 Multigrid::~Multigrid() = default;
 
@@ -226,26 +226,17 @@ void Multigrid::set_up(System const& system, Field const&, Facts const& facts)
 
 void Multigrid::take(std::size_t line, double const* residual)
 {
-    inside_->take_line(line, inside_->scale, residual, inside_->stages[0].level->right);
+    inside_->take(inside_->lines[line], inside_->scale, residual, inside_->finest().right);
 }
 
 double Multigrid::apply()
 {
     inside_->cycle(0);
-    return inside_->stages[0].level->dot() / inside_->scale;
+    return inside_->finest().dot() / inside_->scale;
 }
 
 void Multigrid::give(std::size_t line, double* result) const
 {
-    Inside const& in = *inside_;
-    Level const& level = *in.stages[0].level;
-    auto const first = static_cast<std::ptrdiff_t>(in.lines[line]);
-    float const* const one = level.x.data() + level.place(static_cast<Index>(first));
-    float const* const other = level.x.data() + level.place(static_cast<Index>(first + in.stride));
-    if (in.stride == 1) {
-        join(in.length, one, other, result);
-        return;
-    }
-    for (int m = 0; m < in.length; ++m) result[m] = static_cast<double>((m % 2 == 0 ? one : other)[m / 2 * in.stride]);
+    inside_->give(inside_->lines[line], result);
 }
 }

@@ -20,7 +20,8 @@ namespace granum::solve
 class Multigrid : public Preconditioner
 {
   public:
-    Multigrid(grid::Grid const& grid, par::Communicator const& comm);
+    //! Levels of at most `few` cells of all ranks are done by every rank alone, the finest excepted.
+    Multigrid(grid::Grid const& grid, par::Communicator const& comm, long few = 4096);
     ~Multigrid() override;
 
     void set_up(System const& system, Field const& diagonal, Facts const& facts) override;

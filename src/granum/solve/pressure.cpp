@@ -41,9 +41,9 @@ struct Matrix
     }
 };
 
-//! Diagonal, and the sum of the right sides of the cells that take part. Puts x to zero in the others.
-GRANUM_VECTORISED void prepare(grid::Run const line, Matrix const matrix, double const* __restrict right,
-                               double* __restrict x, double* __restrict diagonal)
+//! Makes the diagonal. Puts x to zero in cells that do not take part.
+GRANUM_VECTORISED void prepare(grid::Run const line, Matrix const& matrix, double* __restrict x,
+                               double* __restrict diagonal)
 {
 #pragma GCC ivdep
     for (Index c = line.first; c < line.end; ++c) {
@@ -52,25 +52,23 @@ GRANUM_VECTORISED void prepare(grid::Run const line, Matrix const matrix, double
     }
 }
 
-//! Squares of the right side without its mean, and the residual's.
-GRANUM_VECTORISED double right_squared(grid::Run const line, double const* __restrict diagonal,
-                                       double const* __restrict right, double mean)
+//! Puts the right side without its mean in the place of the residual and returns its square.
+GRANUM_VECTORISED double centre(grid::Run const line, double const* __restrict diagonal,
+                                double const* __restrict right, double mean, double* __restrict residual)
 {
-    return sum_of(line.first, line.end, [=](Index c) {
-        double const here = diagonal[c] > 0 ? right[c] - mean : 0;
-        return here * here;
-    });
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) residual[c] = diagonal[c] > 0 ? right[c] - mean : 0;
+    return dot(line.first, line.end, residual, residual);
 }
 
-GRANUM_VECTORISED double begin(grid::Run const line, Matrix const matrix, double const* __restrict diagonal,
+GRANUM_VECTORISED double begin(grid::Run const line, Matrix const& matrix, double const* __restrict diagonal,
                                double const* __restrict right, double mean, double const* __restrict x,
                                double* __restrict residual)
 {
-    return sum_of(line.first, line.end, [=](Index c) {
-        double const here = (diagonal[c] > 0 ? right[c] - mean : 0) - matrix.times(x, c);
-        residual[c] = here;
-        return here * here;
-    });
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c)
+        residual[c] = (diagonal[c] > 0 ? right[c] - mean : 0) - matrix.times(x, c);
+    return dot(line.first, line.end, residual, residual);
 }
 
 GRANUM_VECTORISED void turn(grid::Run const line, double const* __restrict better, double keep,
@@ -81,26 +79,24 @@ GRANUM_VECTORISED void turn(grid::Run const line, double const* __restrict bette
 }
 
 //! Returns x times the product.
-GRANUM_VECTORISED double multiply(grid::Run const line, Matrix const matrix, double const* __restrict x,
+GRANUM_VECTORISED double multiply(grid::Run const line, Matrix const& matrix, double const* __restrict x,
                                   double* __restrict product)
 {
-    return sum_of(line.first, line.end, [=](Index c) {
-        double const here = matrix.times(x, c);
-        product[c] = here;
-        return here * x[c];
-    });
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) product[c] = matrix.times(x, c);
+    return dot(line.first, line.end, product, x);
 }
 
 //! Returns the square of the new residual.
 GRANUM_VECTORISED double go(grid::Run const line, double step, double const* __restrict direction,
                             double const* __restrict product, double* __restrict x, double* __restrict residual)
 {
-    return sum_of(line.first, line.end, [=](Index c) {
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) {
         x[c] += step * direction[c];
-        double const here = residual[c] - step * product[c];
-        residual[c] = here;
-        return here * here;
-    });
+        residual[c] -= step * product[c];
+    }
+    return dot(line.first, line.end, residual, residual);
 }
 
 std::unique_ptr<Preconditioner> make(grid::Grid const& grid, par::Communicator const& comm, Method method)
@@ -172,8 +168,9 @@ struct Pressure::Inside
     Facts look(System const& system, Field& x)
     {
         std::array<double, 2> most{};
+        Matrix const of_system = matrix(system);
         for (auto const& line : lines) {
-            prepare(line, matrix(system), system.right.data(), x.data(), diagonal.data());
+            prepare(line, of_system, x.data(), diagonal.data());
             for (Index c = line.first; c < line.end; ++c) {
                 most[0] = std::max(most[0], diagonal[c]);
                 most[1] = std::max(most[1], system.extra[c]);
@@ -217,7 +214,7 @@ Outcome Pressure::solve(System const& system, Field& x, double tolerance, double
     Facts facts = in.look(system, x);
     double const mean = facts.free ? in.mean(system.right) : 0;
     facts.right = std::sqrt(in.sum([&](grid::Run const& line) {
-        return right_squared(line, in.diagonal.data(), system.right.data(), mean);
+        return centre(line, in.diagonal.data(), system.right.data(), mean, in.residual.data());
     }));
     double const goal = std::max(tolerance * facts.right, floor);
 

@@ -137,9 +137,10 @@ void Transfer::aggregate(Level const& fine, Level& coarse)
         }
 }
 
-void Transfer::restrict(Level& fine, Level& coarse, std::size_t colour)
+void Transfer::restrict(Level& fine, Level& coarse, Colours colours)
 {
-    if (split_) fine.refresh(fine.residual, colour);
+    if (split_)
+        for (auto const colour : colours) fine.refresh(fine.residual, colour);
     auto const [a, b, c] = fine.order;
     int const n = coarse.n[a];
     if (n == 0) return;
@@ -150,20 +151,21 @@ void Transfer::restrict(Level& fine, Level& coarse, std::size_t colour)
             std::fill_n(row.begin(), n, 0.0f);
             auto const layers = children(c, at[c]), lines = children(b, at[b]);
             for (child[c] = layers.first; child[c] < layers.end; ++child[c])
-                for (child[b] = lines.first; child[b] < lines.end; ++child[b]) {
-                    auto const part = part_of(fine, colour, fine.number(child), offset_[a], behind_[a]);
-                    float const* const from = fine.residual.data() + part.place;
-                    if (paired_[a])
-                        add(part.count, 1, from, row.data());
-                    else
-                        add_spread(part.count, from, row.data() + part.coarse);
-                }
+                for (child[b] = lines.first; child[b] < lines.end; ++child[b])
+                    for (auto const colour : colours) {
+                        auto const part = part_of(fine, colour, fine.number(child), offset_[a], behind_[a]);
+                        float const* const from = fine.residual.data() + part.place;
+                        if (paired_[a])
+                            add(part.count, 1, from, row.data());
+                        else
+                            add_spread(part.count, from, row.data() + part.coarse);
+                    }
             Index const to = coarse.number(at);
             deal(n, row.data(), coarse.right.data() + coarse.place(to), coarse.right.data() + coarse.place(to + 1));
         }
 }
 
-void Transfer::prolong(Level& coarse, Level& fine, std::size_t colour)
+void Transfer::prolong(Level& coarse, Level& fine, Colours colours)
 {
     if (split_) coarse.refresh(coarse.x, 0);  // colour 1 was refreshed before colour 0 was solved for, last of all
     auto const [a, b, c] = fine.order;
@@ -177,15 +179,16 @@ void Transfer::prolong(Level& coarse, Level& fine, std::size_t colour)
             join(n, coarse.x.data() + coarse.place(from), coarse.x.data() + coarse.place(from + 1), row.data());
             auto const layers = children(c, at[c]), lines = children(b, at[b]);
             for (child[c] = std::max(layers.first, 0); child[c] < std::min(layers.end, fine.n[c]); ++child[c])
-                for (child[b] = std::max(lines.first, 0); child[b] < std::min(lines.end, fine.n[b]); ++child[b]) {
-                    auto const part = part_of(fine, colour, fine.number(child), 0, fine.n[a]);
-                    float* const to = fine.x.data() + part.place;
-                    float const* const correction = row.data() + part.coarse + offset_[a];
-                    if (paired_[a])
-                        add(part.count, 1, correction, to);
-                    else
-                        add_second(part.count, correction, to);
-                }
+                for (child[b] = std::max(lines.first, 0); child[b] < std::min(lines.end, fine.n[b]); ++child[b])
+                    for (auto const colour : colours) {
+                        auto const part = part_of(fine, colour, fine.number(child), 0, fine.n[a]);
+                        float* const to = fine.x.data() + part.place;
+                        float const* const correction = row.data() + part.coarse + offset_[a];
+                        if (paired_[a])
+                            add(part.count, 1, correction, to);
+                        else
+                            add_second(part.count, correction, to);
+                    }
         }
 }
 }

@@ -6,6 +6,7 @@
 namespace granum::solve
 {
 using Directions = std::array<bool, 3>;
+using Colours = std::span<std::size_t const>;
 
 //! The cells of ranks when cells 2I and 2I + 1 along `paired` directions become one: it goes to the rank of the first.
 grid::Layout coarser(grid::Layout const& layout, Directions const& paired);
@@ -21,10 +22,10 @@ class Transfer
     //! Links and extras of the coarse level: sums over faces and cells. Across paired directions centres are twice as
     //! far apart, so that links are halved.
     void aggregate(Level const& fine, Level& coarse);
-    //! Right side of the coarse level from the residual of one colour. Collective.
-    void restrict(Level& fine, Level& coarse, std::size_t colour);
-    //! Adds x of the coarse level to that of the fine cells of one colour. Collective.
-    void prolong(Level& coarse, Level& fine, std::size_t colour);
+    //! Right side of the coarse level from the residual of some colours. Collective.
+    void restrict(Level& fine, Level& coarse, Colours colours);
+    //! Adds x of the coarse level to that of the fine cells of some colours. Collective.
+    void prolong(Level& coarse, Level& fine, Colours colours);
 
   private:
     struct Children
