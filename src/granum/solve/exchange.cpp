@@ -7,7 +7,9 @@ Exchange::Exchange(grid::Layout const& layout, grid::Shape const& shape, Index h
     : comm_(comm)
 {
     grid::Halo const halo(layout, shape, rank, comm);
-    auto const place = [half](std::uint32_t cell) { return (cell >> 1) + (cell & 1) * static_cast<std::uint32_t>(half); };
+    auto const place = [half](std::uint32_t cell) {
+        return (cell >> 1) + (cell & 1) * static_cast<std::uint32_t>(half);
+    };
 
     for (std::size_t k = 0; k < halo.images().size(); ++k) {
         auto const original = halo.originals()[k];
@@ -51,6 +53,7 @@ void Exchange::refresh(std::initializer_list<Values*> fields) const
 
 void Exchange::refresh(std::span<Values* const> fields, std::span<std::size_t const> colours) const
 {
+    if (sides_.empty() && images_[0].empty() && images_[1].empty()) return;
     std::vector<par::Message> messages;
     for (std::size_t s = 0; s < sides_.size(); ++s) {
         auto& out = out_[s];

@@ -37,8 +37,7 @@ GRANUM_VECTORISED void residual_run(Index first, Index end, Around const& around
 {
     // The diagonal last: ghosts, where it is zero, have no residual, whatever lies around them.
 #pragma GCC ivdep
-    for (Index m = first; m < end; ++m)
-        residual[m] = diagonal[m] * (inverse[m] * (right[m] + around.sum(m)) - x[m]);
+    for (Index m = first; m < end; ++m) residual[m] = diagonal[m] * (inverse[m] * (right[m] + around.sum(m)) - x[m]);
 }
 
 GRANUM_VECTORISED void start_run(Index first, Index end, float const* __restrict inverse, float const* __restrict right,
@@ -134,8 +133,7 @@ std::array<double, 3> Level::close()
             Index const at = colour * half_;
             close_run(row.first, row.end, around(*this, half_, colour), extra.data() + at, diagonal.data() + at,
                       inverse.data() + at);
-            for (std::size_t d = 0; d < 3; ++d)
-                sums[d] += sum_run(row.first, row.end, link[d].data() + at);
+            for (std::size_t d = 0; d < 3; ++d) sums[d] += sum_run(row.first, row.end, link[d].data() + at);
         }
     });
     return sums;

@@ -2,6 +2,7 @@
 
 #include "granum/base/vectorised.hpp"
 #include "granum/solve/gathering.hpp"
+#include "granum/solve/rows.hpp"
 #include "granum/solve/transfer.hpp"
 
 #include <algorithm>
@@ -16,28 +17,15 @@ constexpr double strong = 0.6180;
 //! Sweeps over one colour before the correction, and as many after it: on the finest level, on others, on the last.
 constexpr std::size_t finest_sweeps = 3, sweeps = 6, last_sweeps = 9;
 
-//! From a line of doubles to cells of alternating colour, and back.
 GRANUM_VECTORISED void deal(int count, double scale, double const* __restrict line, float* __restrict one,
                             float* __restrict other)
 {
-    int const pairs = count / 2;
-#pragma GCC ivdep
-    for (int m = 0; m < pairs; ++m) {
-        one[m] = static_cast<float>(scale * line[2 * m]);
-        other[m] = static_cast<float>(scale * line[2 * m + 1]);
-    }
-    if (count % 2 != 0) one[pairs] = static_cast<float>(scale * line[2 * pairs]);
+    deal_row(count, scale, line, one, other);
 }
 GRANUM_VECTORISED void join(int count, float const* __restrict one, float const* __restrict other,
                             double* __restrict line)
 {
-    int const pairs = count / 2;
-#pragma GCC ivdep
-    for (int m = 0; m < pairs; ++m) {
-        line[2 * m] = static_cast<double>(one[m]);
-        line[2 * m + 1] = static_cast<double>(other[m]);
-    }
-    if (count % 2 != 0) line[2 * pairs] = static_cast<double>(one[pairs]);
+    join_row(count, one, other, line);
 }
 
 //! A level and what leads to the next one: pairs of cells, or gathering on every rank.
@@ -104,20 +92,28 @@ struct Multigrid::Inside
     {
         float* const one = to.data() + finest().place(line.there);
         float* const other = to.data() + finest().place(line.there + static_cast<Index>(stride));
-        if (stride == 1)
+        if (stride == 1) {
             deal(length, factor, from, one, other);
-        else
-            for (int m = 0; m < length; ++m) (m % 2 == 0 ? one : other)[m / 2 * stride] = static_cast<float>(factor * from[m]);
+            return;
+        }
+        for (int m = 0; m < length; ++m) {
+            float* const at = (m % 2 == 0 ? one : other) + m / 2 * stride;
+            *at = static_cast<float>(factor * from[m]);
+        }
     }
 
     void give(Line const& line, double* to) const
     {
         float const* const one = finest().x.data() + finest().place(line.there);
         float const* const other = finest().x.data() + finest().place(line.there + static_cast<Index>(stride));
-        if (stride == 1)
+        if (stride == 1) {
             join(length, one, other, to);
-        else
-            for (int m = 0; m < length; ++m) to[m] = static_cast<double>((m % 2 == 0 ? one : other)[m / 2 * stride]);
+            return;
+        }
+        for (int m = 0; m < length; ++m) {
+            float const* const at = (m % 2 == 0 ? one : other) + m / 2 * stride;
+            to[m] = static_cast<double>(*at);
+        }
     }
 
     void set_up(System const& system, Facts const& facts)

@@ -1,5 +1,6 @@
 #include "granum/solve/pressure.hpp"
 
+#include "granum/base/aligned.hpp"
 #include "granum/base/vectorised.hpp"
 #include "granum/grid/halo.hpp"
 #include "granum/solve/diagonal.hpp"
@@ -53,8 +54,8 @@ GRANUM_VECTORISED void prepare(grid::Run const line, Matrix const& matrix, doubl
 }
 
 //! Puts the right side without its mean in the place of the residual and returns its square.
-GRANUM_VECTORISED double centre(grid::Run const line, double const* __restrict diagonal,
-                                double const* __restrict right, double mean, double* __restrict residual)
+GRANUM_VECTORISED double centre(grid::Run const line, double const* __restrict diagonal, double const* __restrict right,
+                                double mean, double* __restrict residual)
 {
 #pragma GCC ivdep
     for (Index c = line.first; c < line.end; ++c) residual[c] = diagonal[c] > 0 ? right[c] - mean : 0;
@@ -103,9 +104,12 @@ std::unique_ptr<Preconditioner> make(grid::Grid const& grid, par::Communicator c
 {
     switch (method) {
         case Method::pfmg:
-        case Method::smg: return std::make_unique<Hypre>(grid, comm, method);
-        case Method::diagonal: return std::make_unique<Diagonal>(grid);
-        case Method::multigrid: break;
+        case Method::smg:
+            return std::make_unique<Hypre>(grid, comm, method);
+        case Method::diagonal:
+            return std::make_unique<Diagonal>(grid);
+        case Method::multigrid:
+            break;
     }
     return std::make_unique<Multigrid>(grid, comm);
 }
@@ -118,7 +122,8 @@ struct Pressure::Inside
     Method method;
     std::unique_ptr<Preconditioner> preconditioner;
     std::vector<grid::Run> lines;  // of owned cells
-    Field diagonal, residual, direction, product;
+    Field diagonal, direction;
+    base::AlignedVector<double> residual, product;
     std::vector<double> better;  // a line
 
     Inside(grid::Grid const& g, par::Communicator const& c, Method m)
@@ -128,9 +133,9 @@ struct Pressure::Inside
           preconditioner(make(g, c, method)),
           lines(grid::runs(g, [](int, int, int, Index) { return true; })),
           diagonal(g.make_field()),
-          residual(g.make_field()),
           direction(g.make_field()),
-          product(g.make_field()),
+          residual(g.size()),
+          product(g.size()),
           better(static_cast<std::size_t>(g.n[g.order[0]]))
     {
     }
@@ -244,9 +249,8 @@ Outcome Pressure::solve(System const& system, Field& x, double tolerance, double
             turn(in.lines[line], in.better.data(), keep, in.direction.data());
         }
         grid::refresh(in.grid, {&in.direction});
-        double const curve = in.sum([&](grid::Run const& line) {
-            return multiply(line, matrix, in.direction.data(), in.product.data());
-        });
+        double const curve = in.sum(
+            [&](grid::Run const& line) { return multiply(line, matrix, in.direction.data(), in.product.data()); });
         if (!(curve > 0)) break;  // nothing left but round-off
         ++outcome.iterations;
         double const step = now / curve;

@@ -1,6 +1,7 @@
 #include "granum/solve/transfer.hpp"
 
 #include "granum/base/vectorised.hpp"
+#include "granum/solve/rows.hpp"
 
 #include <algorithm>
 
@@ -26,27 +27,14 @@ GRANUM_VECTORISED void add_second(int count, float const* __restrict from, float
     for (int m = 0; m < count; ++m) to[m] += from[2 * m];
 }
 
-//! From a row to its cells of one colour and of the other, and back.
 GRANUM_VECTORISED void deal(int count, float const* __restrict row, float* __restrict one, float* __restrict other)
 {
-    int const pairs = count / 2;
-#pragma GCC ivdep
-    for (int m = 0; m < pairs; ++m) {
-        one[m] = row[2 * m];
-        other[m] = row[2 * m + 1];
-    }
-    if (count % 2 != 0) one[pairs] = row[2 * pairs];
+    deal_row(count, 1.0f, row, one, other);
 }
 GRANUM_VECTORISED void join(int count, float const* __restrict one, float const* __restrict other,
                             float* __restrict row)
 {
-    int const pairs = count / 2;
-#pragma GCC ivdep
-    for (int m = 0; m < pairs; ++m) {
-        row[2 * m] = one[m];
-        row[2 * m + 1] = other[m];
-    }
-    if (count % 2 != 0) row[2 * pairs] = one[pairs];
+    join_row(count, one, other, row);
 }
 }
 

@@ -28,14 +28,14 @@ std::vector<CellBox> boxes_of(std::array<int, 3> const& n, int ranks)
     auto const [x, y, z] = n;
     int const a = x > 4 ? 3 : x / 2, b = y > 5 ? 5 : y / 2, c = z / 3;
     switch (ranks) {
-        case 1: return {{{0, 0, 0}, n}};
-        case 2: return {{{0, 0, 0}, {x, y, c}}, {{0, 0, c}, n}};
-        case 3: return {{{0, 0, 0}, {x, y, c + 1}}, {{0, 0, c + 1}, {x, b, z}}, {{0, b, c + 1}, n}};
+        case 1:
+            return {{{0, 0, 0}, n}};
+        case 2:
+            return {{{0, 0, 0}, {x, y, c}}, {{0, 0, c}, n}};
+        case 3:
+            return {{{0, 0, 0}, {x, y, c + 1}}, {{0, 0, c + 1}, {x, b, z}}, {{0, b, c + 1}, n}};
         default:
-            return {{{0, 0, 0}, {x, y, c}},
-                    {{0, 0, c}, {x, y, c + 1}},
-                    {{0, 0, c + 1}, {a, y, z}},
-                    {{a, 0, c + 1}, n}};
+            return {{{0, 0, 0}, {x, y, c}}, {{0, 0, c}, {x, y, c + 1}}, {{0, 0, c + 1}, {a, y, z}}, {{a, 0, c + 1}, n}};
     }
 }
 
@@ -55,7 +55,8 @@ struct Case
     grid::Grid grid;
     solve::System system;
 
-    Case(Scene const& scene, MPI_Comm ranks) : comm(ranks), grid(cells_of(scene, comm)), system(bed_system(grid, scene.bed))
+    Case(Scene const& scene, MPI_Comm ranks)
+        : comm(ranks), grid(cells_of(scene, comm)), system(bed_system(grid, scene.bed))
     {
     }
 
@@ -86,8 +87,7 @@ double largest_difference(Case const& alone, grid::Field const& there, Case cons
     double worst = 0;
     grid::for_each_cell(shared.grid, [&](int i, int j, int k, grid::Index c) {
         auto const& shift = shared.grid.shift;
-        worst = std::max(worst,
-                         std::abs(here[c] - there[alone.grid.at(i + shift[0], j + shift[1], k + shift[2])]));
+        worst = std::max(worst, std::abs(here[c] - there[alone.grid.at(i + shift[0], j + shift[1], k + shift[2])]));
     });
     return shared.comm.max(worst);
 }
@@ -130,7 +130,8 @@ TEST(PressureOnRanks, solutions_agree_to_round_off)
     for (auto const& scene : scenes) {
         Case const alone(scene, MPI_COMM_SELF), shared(scene, MPI_COMM_WORLD);
         auto x = alone.grid.make_field(), y = shared.grid.make_field();
-        auto const one = solve::Pressure(alone.grid, alone.comm, solve::Method::multigrid).solve(alone.system, x, 1e-13);
+        auto const one =
+            solve::Pressure(alone.grid, alone.comm, solve::Method::multigrid).solve(alone.system, x, 1e-13);
         auto const many =
             solve::Pressure(shared.grid, shared.comm, solve::Method::multigrid).solve(shared.system, y, 1e-13);
         EXPECT_TRUE(one.converged && many.converged);

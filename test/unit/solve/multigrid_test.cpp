@@ -47,11 +47,9 @@ struct Inverse
     grid::Field times(grid::Field const& field)
     {
         auto out = grid.make_field();
-        for (std::size_t line = 0; line < lines.size(); ++line)
-            multigrid.take(line, field.data() + lines[line].first);
+        for (std::size_t line = 0; line < lines.size(); ++line) multigrid.take(line, field.data() + lines[line].first);
         multigrid.apply();
-        for (std::size_t line = 0; line < lines.size(); ++line)
-            multigrid.give(line, out.data() + lines[line].first);
+        for (std::size_t line = 0; line < lines.size(); ++line) multigrid.give(line, out.data() + lines[line].first);
         return out;
     }
 

@@ -128,10 +128,8 @@ TEST(Pressure, methods_agree_where_every_cell_has_an_extra)
 TEST(Pressure, multigrid_takes_odd_periodic_sizes)
 {
     for (auto const cells : {std::array{7, 5, 9}, std::array{15, 8, 31}, std::array{3, 1, 21}})
-        expect_agreement({.cells = cells,
-                          .periodic = {true, true, true},
-                          .bed = {.outlet = false},
-                          .methods = {Method::multigrid}});
+        expect_agreement(
+            {.cells = cells, .periodic = {true, true, true}, .bed = {.outlet = false}, .methods = {Method::multigrid}});
 }
 
 TEST(Pressure, periodic_sizes_that_hypre_cannot_halve_use_the_own_multigrid)
