@@ -7,6 +7,7 @@
 #include "granum/solve/hypre.hpp"
 #include "granum/solve/multigrid.hpp"
 #include "granum/solve/sums.hpp"
+#include "granum/solve/whole.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@ namespace
 {
 using grid::Index;
 constexpr int most_iterations = 2000;
+constexpr long few_cells = 16384;  // of all ranks: as many are solved for by each rank alone
 
 //! A system as the loops over lines see it.
 struct Matrix
@@ -121,6 +123,7 @@ struct Pressure::Inside
     par::Communicator const& comm;
     Method method;
     std::unique_ptr<Preconditioner> preconditioner;
+    std::unique_ptr<Whole> whole;  // where the system is a small one
     std::vector<grid::Run> lines;  // of owned cells
     Field diagonal, direction;
     base::AlignedVector<double> residual, product;
@@ -138,6 +141,8 @@ struct Pressure::Inside
           product(g.size()),
           better(static_cast<std::size_t>(g.n[g.order[0]]))
     {
+        long const cells = static_cast<long>(g.global[0]) * g.global[1] * g.global[2];
+        if (method == Method::multigrid && comm.size() > 1 && cells <= few_cells) whole = std::make_unique<Whole>(g, c);
     }
 
     Matrix matrix(System const& system) const
@@ -215,6 +220,7 @@ void Pressure::recall(Memory memory)
 Outcome Pressure::solve(System const& system, Field& x, double tolerance, double floor)
 {
     Inside& in = *inside_;
+    if (in.whole) return in.whole->solve(system, x, tolerance, floor);
     Matrix const matrix = in.matrix(system);
     Facts facts = in.look(system, x);
     double const mean = facts.free ? in.mean(system.right) : 0;

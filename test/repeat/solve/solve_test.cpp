@@ -109,6 +109,9 @@ std::vector<Scene> const scenes{
     {.cells = {7, 7, 15}, .periodic = {true, true, true}, .bed = {.outlet = false}},
     {.cells = {1, 13, 31}, .periodic = {true, true, false}},
     {.cells = {20, 20, 41}},
+    {.cells = {31, 21, 33}, .periodic = {true, true, true}, .bed = {.outlet = false}},
+    {.cells = {2, 95, 101}, .bed = {.outlet = false}},
+    {.cells = {22, 22, 44}, .bed = {.jump = 1000}, .conical = true},
 };
 }
 
@@ -125,9 +128,25 @@ TEST(PressureOnRanks, a_cycle_has_the_same_bits)
     }
 }
 
+TEST(PressureOnRanks, small_systems_have_the_same_bits)
+{
+    for (auto const& scene : scenes) {
+        if (scene.cells[0] * scene.cells[1] * scene.cells[2] > 16384) continue;
+        Case const alone(scene, MPI_COMM_SELF), shared(scene, MPI_COMM_WORLD);
+        auto x = alone.grid.make_field(), y = shared.grid.make_field();
+        for (double const tolerance : {1e-3, 1e-6}) {  // the second from the first's result
+            solve::Pressure(alone.grid, alone.comm, solve::Method::multigrid).solve(alone.system, x, tolerance);
+            solve::Pressure(shared.grid, shared.comm, solve::Method::multigrid).solve(shared.system, y, tolerance);
+            EXPECT_EQ(largest_difference(alone, x, shared, y), 0)
+                << scene.cells[0] << " x " << scene.cells[1] << " x " << scene.cells[2];
+        }
+    }
+}
+
 TEST(PressureOnRanks, solutions_agree_to_round_off)
 {
     for (auto const& scene : scenes) {
+        if (scene.cells[0] * scene.cells[1] * scene.cells[2] <= 16384) continue;
         Case const alone(scene, MPI_COMM_SELF), shared(scene, MPI_COMM_WORLD);
         auto x = alone.grid.make_field(), y = shared.grid.make_field();
         auto const one =
@@ -135,7 +154,7 @@ TEST(PressureOnRanks, solutions_agree_to_round_off)
         auto const many =
             solve::Pressure(shared.grid, shared.comm, solve::Method::multigrid).solve(shared.system, y, 1e-13);
         EXPECT_TRUE(one.converged && many.converged);
-        EXPECT_EQ(one.iterations, many.iterations);
+        EXPECT_NEAR(one.iterations, many.iterations, 0.1 * one.iterations);
         EXPECT_LT(largest_difference(alone, x, shared, y), 1e-12 * largest(alone, x))
             << scene.cells[0] << " x " << scene.cells[1] << " x " << scene.cells[2];
     }
