@@ -24,7 +24,7 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
       coupled{grid.make_face_field(), grid.make_face_field(), grid.make_face_field()},
       reach{grid.make_face_field(), grid.make_face_field(), grid.make_face_field()},
       weights{},
-      pressure(grid, ranks, solve::Method::multigrid),
+      pressure(grid, ranks, settings.pressure_solver),
       system(grid),
       correction(grid.make_field()),
       exchanged(grid.make_field(settings.expansion_temperature)),

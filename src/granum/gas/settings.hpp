@@ -2,6 +2,7 @@
 #pragma once
 
 #include "granum/math/vec3.hpp"
+#include "granum/solve/pressure.hpp"
 
 #include <functional>
 #include <optional>
@@ -98,6 +99,7 @@ struct Settings
     std::optional<double> diffusivity;                    //!< of vapour
     std::optional<double> molar_mass, vapour_molar_mass;  //!< kg/mol, instead of those of air and water
     std::optional<Tracer> tracer;
+    solve::Method pressure_solver = solve::Method::multigrid;
     double tolerance = 1e-6;  //!< of the pressure solve, relative to its right side
 };
 }

@@ -42,7 +42,6 @@ Halo::Halo(Layout const& layout, Shape const& shape, int rank, par::Communicator
 {
     base::require(shape.size() < (Index{1} << 32), "{} cells on one rank are more than it can name", shape.size());
     auto const& mine = layout.box(rank);
-    if (mine.cells() == 0) return;
     auto const local = [&](std::array<int, 3> const& cell) {
         return static_cast<std::uint32_t>(
             shape.at(cell[0] - mine.lower[0], cell[1] - mine.lower[1], cell[2] - mine.lower[2]));
@@ -62,7 +61,6 @@ Halo::Halo(Layout const& layout, Shape const& shape, int rank, par::Communicator
                 if (there) images.push_back(by);
             }
     for (int other = 0; other < layout.ranks(); ++other) {
-        if (layout.box(other).cells() == 0) continue;
         Side side{other, {}, {}};
         for (auto const& by : images) {
             // What of the other's image I see as ghosts.

@@ -9,28 +9,33 @@
 
 namespace granum::grid
 {
-//! Who sends which cells to whom. Ranks may have any boxes of cells.
+//! Who sends which cells to whom. Ranks may have any boxes of cells, and a box may be empty: it then has ghosts only.
 class Halo
 {
   public:
+    struct Side
+    {
+        int rank;
+        std::vector<std::uint32_t> mine, ghosts;  //!< cells sent; ghosts filled
+    };
+
     Halo(Layout const& layout, Shape const& shape, int rank, par::Communicator const& comm);
 
     void refresh(std::span<Field* const> fields) const;
     void fold(std::span<Field* const> fields) const;
 
     Layout const& layout() const { return layout_; }
+    std::vector<Side> const& sides() const { return sides_; }  //!< other ranks
+    //! @{ Ghosts that are cells of this rank over periodic faces, and these cells.
+    std::vector<std::uint32_t> const& images() const { return images_; }
+    std::vector<std::uint32_t> const& originals() const { return originals_; }
+    //! @}
 
   private:
-    struct Side
-    {
-        int rank;
-        std::vector<std::uint32_t> mine, ghosts;  // cells sent; ghosts filled
-    };
-
     Layout layout_;
     par::Communicator comm_;
-    std::vector<Side> sides_;                        // other ranks
-    std::vector<std::uint32_t> images_, originals_;  // ghosts that are cells of this rank, over periodic faces
+    std::vector<Side> sides_;
+    std::vector<std::uint32_t> images_, originals_;
     mutable std::vector<std::vector<double>> out_, in_;
 };
 

@@ -13,6 +13,15 @@ T reduce(MPI_Comm comm, T value, MPI_Datatype type, MPI_Op op)
     MPI_Allreduce(&value, &out, 1, type, op, comm);
     return out;
 }
+
+template <class T>
+void share_all(MPI_Comm comm, std::span<T const> mine, std::span<T> all, std::span<int const> counts, MPI_Datatype type)
+{
+    std::vector<int> starts(counts.size());
+    for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+    MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), type, all.data(), counts.data(), starts.data(), type,
+                   comm);
+}
 }
 
 Communicator::Communicator(MPI_Comm handle) : handle_(handle)
@@ -141,6 +150,15 @@ std::vector<std::vector<std::byte>> Communicator::deliver(std::vector<std::vecto
                       static_cast<int>(r), 7, handle_, &requests.emplace_back());
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     return from_each;
+}
+
+void Communicator::share(std::span<float const> mine, std::span<float> all, std::span<int const> counts) const
+{
+    share_all(handle_, mine, all, counts, MPI_FLOAT);
+}
+void Communicator::share(std::span<double const> mine, std::span<double> all, std::span<int const> counts) const
+{
+    share_all(handle_, mine, all, counts, MPI_DOUBLE);
 }
 
 std::vector<std::byte> Communicator::gather(std::span<std::byte const> mine) const

@@ -58,6 +58,11 @@ class Communicator
     //! Sends to_each[r] to rank r and returns what each rank sent here. Collective.
     std::vector<std::vector<std::byte>> deliver(std::vector<std::vector<std::byte>> const& to_each) const;
 
+    //! @{ The numbers of every rank one after the other, on every rank: `counts` of them by rank.
+    void share(std::span<float const> mine, std::span<float> all, std::span<int const> counts) const;
+    void share(std::span<double const> mine, std::span<double> all, std::span<int const> counts) const;
+    //! @}
+
     //! The bytes of every rank one after the other, on rank 0 (empty elsewhere).
     std::vector<std::byte> gather(std::span<std::byte const> mine) const;
 

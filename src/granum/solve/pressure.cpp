@@ -1,13 +1,17 @@
 #include "granum/solve/pressure.hpp"
 
+#include "granum/base/aligned.hpp"
 #include "granum/base/vectorised.hpp"
 #include "granum/grid/halo.hpp"
+#include "granum/solve/diagonal.hpp"
+#include "granum/solve/hypre.hpp"
 #include "granum/solve/multigrid.hpp"
+#include "granum/solve/sums.hpp"
+#include "granum/solve/whole.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace granum::solve
 {
@@ -15,30 +19,101 @@ namespace
 {
 using grid::Index;
 constexpr int most_iterations = 2000;
-constexpr int most_solves_per_set_up = 200;
-constexpr int patience = 3;  // iterations above those right after a set-up
+constexpr long few_cells = 16384;  // of all ranks: as many are solved for by each rank alone
 
-//! In eight parts, so that the order of additions is the same whatever the machine does at a time.
-GRANUM_VECTORISED double dot_of(Index first, Index end, double const* __restrict a, double const* __restrict b)
+//! A system as the loops over lines see it.
+struct Matrix
 {
-    double part[8]{};
-    Index c = first;
-    for (; c + 8 <= end; c += 8)
-        for (int k = 0; k < 8; ++k) part[k] += a[c + static_cast<Index>(k)] * b[c + static_cast<Index>(k)];
-    for (int k = 0; c < end; ++c, ++k) part[k] += a[c] * b[c];
-    return ((part[0] + part[4]) + (part[1] + part[5])) + ((part[2] + part[6]) + (part[3] + part[7]));
+    std::array<Index, 3> strides;
+    std::array<double const*, 3> link;
+    double const* extra;
+
+    //! In differences, which do not feel what is the same everywhere.
+    double times(double const* x, Index c) const
+    {
+        double sum = extra[c] * x[c];
+        for (std::size_t d = 0; d < 3; ++d)
+            sum += link[d][c] * (x[c] - x[c - strides[d]]) + link[d][c + strides[d]] * (x[c] - x[c + strides[d]]);
+        return sum;
+    }
+    double diagonal(Index c) const
+    {
+        double sum = extra[c];
+        for (std::size_t d = 0; d < 3; ++d) sum += link[d][c] + link[d][c + strides[d]];
+        return sum;
+    }
+};
+
+//! Makes the diagonal. Puts x to zero in cells that do not take part.
+GRANUM_VECTORISED void prepare(grid::Run const line, Matrix const& matrix, double* __restrict x,
+                               double* __restrict diagonal)
+{
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) {
+        diagonal[c] = matrix.diagonal(c);
+        x[c] = diagonal[c] > 0 ? x[c] : 0;
+    }
 }
 
-GRANUM_VECTORISED void multiply_run(Index first, Index end, std::array<std::ptrdiff_t, 3> const s,
-                                    double const* __restrict diagonal, double const* __restrict lx,
-                                    double const* __restrict ly, double const* __restrict lz,
-                                    double const* __restrict x, double* __restrict out)
+//! Puts the right side without its mean in the place of the residual and returns its square.
+GRANUM_VECTORISED double centre(grid::Run const line, double const* __restrict diagonal, double const* __restrict right,
+                                double mean, double* __restrict residual)
 {
-    Index const sx = static_cast<Index>(s[0]), sy = static_cast<Index>(s[1]), sz = static_cast<Index>(s[2]);
 #pragma GCC ivdep
-    for (Index c = first; c < end; ++c)
-        out[c] = diagonal[c] * x[c] - lx[c] * x[c - sx] - lx[c + sx] * x[c + sx] - ly[c] * x[c - sy] -
-                 ly[c + sy] * x[c + sy] - lz[c] * x[c - sz] - lz[c + sz] * x[c + sz];
+    for (Index c = line.first; c < line.end; ++c) residual[c] = diagonal[c] > 0 ? right[c] - mean : 0;
+    return dot(line.first, line.end, residual, residual);
+}
+
+GRANUM_VECTORISED double begin(grid::Run const line, Matrix const& matrix, double const* __restrict diagonal,
+                               double const* __restrict right, double mean, double const* __restrict x,
+                               double* __restrict residual)
+{
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c)
+        residual[c] = (diagonal[c] > 0 ? right[c] - mean : 0) - matrix.times(x, c);
+    return dot(line.first, line.end, residual, residual);
+}
+
+GRANUM_VECTORISED void turn(grid::Run const line, double const* __restrict better, double keep,
+                            double* __restrict direction)
+{
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) direction[c] = better[c - line.first] + keep * direction[c];
+}
+
+//! Returns x times the product.
+GRANUM_VECTORISED double multiply(grid::Run const line, Matrix const& matrix, double const* __restrict x,
+                                  double* __restrict product)
+{
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) product[c] = matrix.times(x, c);
+    return dot(line.first, line.end, product, x);
+}
+
+//! Returns the square of the new residual.
+GRANUM_VECTORISED double go(grid::Run const line, double step, double const* __restrict direction,
+                            double const* __restrict product, double* __restrict x, double* __restrict residual)
+{
+#pragma GCC ivdep
+    for (Index c = line.first; c < line.end; ++c) {
+        x[c] += step * direction[c];
+        residual[c] -= step * product[c];
+    }
+    return dot(line.first, line.end, residual, residual);
+}
+
+std::unique_ptr<Preconditioner> make(grid::Grid const& grid, par::Communicator const& comm, Method method)
+{
+    switch (method) {
+        case Method::pfmg:
+        case Method::smg:
+            return std::make_unique<Hypre>(grid, comm, method);
+        case Method::diagonal:
+            return std::make_unique<Diagonal>(grid);
+        case Method::multigrid:
+            break;
+    }
+    return std::make_unique<Multigrid>(grid, comm);
 }
 }
 
@@ -47,86 +122,78 @@ struct Pressure::Inside
     grid::Grid const& grid;
     par::Communicator const& comm;
     Method method;
-    std::optional<Multigrid> multigrid;
+    std::unique_ptr<Preconditioner> preconditioner;
+    std::unique_ptr<Whole> whole;  // where the system is a small one
     std::vector<grid::Run> lines;  // of owned cells
-    Field diagonal, residual, direction, product, better;
-    Memory memory;  //!< fresh_iterations: of the first solve after a set-up, -1: none yet; solves: since the set-up
+    Field diagonal, direction;
+    base::AlignedVector<double> residual, product;
+    std::vector<double> better;  // a line
 
     Inside(grid::Grid const& g, par::Communicator const& c, Method m)
         : grid(g),
           comm(c),
-          method(m),
+          method((m == Method::pfmg || m == Method::smg) && !Hypre::suits(g) ? Method::multigrid : m),
+          preconditioner(make(g, c, method)),
           lines(grid::runs(g, [](int, int, int, Index) { return true; })),
           diagonal(g.make_field()),
-          residual(g.make_field()),
           direction(g.make_field()),
-          product(g.make_field()),
-          better(g.make_field())
+          residual(g.size()),
+          product(g.size()),
+          better(static_cast<std::size_t>(g.n[g.order[0]]))
     {
-        if (method == Method::multigrid && !Multigrid::suits(g)) method = Method::diagonal;
-        if (method == Method::multigrid) multigrid.emplace(g, c);
+        long const cells = static_cast<long>(g.global[0]) * g.global[1] * g.global[2];
+        if (method == Method::multigrid && comm.size() > 1 && cells <= few_cells) whole = std::make_unique<Whole>(g, c);
     }
 
-    double dot(Field const& a, Field const& b) const
+    Matrix matrix(System const& system) const
     {
-        double sum = 0;
-        for (auto const& line : lines) sum += dot_of(line.first, line.end, a.data(), b.data());
-        return comm.size() > 1 ? comm.sum(sum) : sum;
+        Matrix out{.strides = {}, .link = {}, .extra = system.extra.data()};
+        for (std::size_t d = 0; d < 3; ++d) {
+            out.strides[d] = static_cast<Index>(grid.strides[d]);
+            out.link[d] = system.link[d].data();
+        }
+        return out;
     }
 
-    void refresh(Field& field) const { grid::refresh(grid, {&field}); }
-
-    //! out := A in on owned cells; the ghosts of `in` are refreshed.
-    void multiply(System const& system, Field& in, Field& out) const
+    //! Sum over the lines of all ranks.
+    template <class Visitor>
+    double sum(Visitor&& visit) const
     {
-        refresh(in);
-        for (auto const& line : lines)
-            multiply_run(line.first, line.end, grid.strides, diagonal.data(), system.link[0].data(),
-                         system.link[1].data(), system.link[2].data(), in.data(), out.data());
-    }
-
-    //! Diagonal of the matrix. Returns true if the system has no extra anywhere: then x is free up to a constant.
-    bool prepare(System const& system)
-    {
-        double extra = 0;
-        grid::for_each_cell(grid, [&](int, int, int, Index c) {
-            double sum = system.extra[c];
-            for (std::size_t d = 0; d < 3; ++d) sum += system.link[d][c] + system.link[d][grid.next(c, d)];
-            diagonal[c] = sum;
-            extra = std::max(extra, system.extra[c]);
-        });
-        return comm.max(extra) == 0;
-    }
-
-    //! The preconditioner must not be singular: there a part of the diagonal is added that no mode but the constant
-    //! feels.
-    void set_up(System const& system, bool free)
-    {
-        Field raised = diagonal;
-        if (free)
-            for (double& value : raised) value *= 1 + 1e-4;
-        memory = {.set_up = true, .stale = false, .diagonal = std::move(raised), .link = system.link};
-        multigrid->set_up(memory.diagonal, memory.link);
+        double total = 0;
+        for (auto const& line : lines) total += visit(line);
+        return comm.size() > 1 ? comm.sum(total) : total;
     }
 
     //! Mean over the cells that take part.
     double mean(Field const& field) const
     {
         std::array<double, 2> sums{};
-        grid::for_each_cell(grid, [&](int, int, int, Index c) {
-            if (diagonal[c] > 0) sums[0] += field[c], sums[1] += 1;
-        });
+        for (auto const& line : lines)
+            for (Index c = line.first; c < line.end; ++c)
+                if (diagonal[c] > 0) sums[0] += field[c], sums[1] += 1;
         comm.sum(sums);
         return sums[1] > 0 ? sums[0] / sums[1] : 0;
     }
 
-    void precondition(Field const& from, Field& to)
+    Facts look(System const& system, Field& x)
     {
-        if (multigrid) {
-            multigrid->apply(from, to);
-            return;
+        std::array<double, 2> most{};
+        Matrix const of_system = matrix(system);
+        for (auto const& line : lines) {
+            prepare(line, of_system, x.data(), diagonal.data());
+            for (Index c = line.first; c < line.end; ++c) {
+                most[0] = std::max(most[0], diagonal[c]);
+                most[1] = std::max(most[1], system.extra[c]);
+            }
         }
-        grid::for_each_cell(grid, [&](int, int, int, Index c) { to[c] = diagonal[c] > 0 ? from[c] / diagonal[c] : 0; });
+        comm.max(most);
+        return {.free = most[1] == 0, .diagonal = most[0], .right = 0};
+    }
+
+    void hand_over()
+    {
+        for (std::size_t line = 0; line < lines.size(); ++line)
+            preconditioner->take(line, residual.data() + lines[line].first);
     }
 };
 
@@ -142,72 +209,73 @@ Method Pressure::method() const
 
 Pressure::Memory const& Pressure::memory() const
 {
-    return inside_->memory;
+    return inside_->preconditioner->memory();
 }
 
 void Pressure::recall(Memory memory)
 {
-    inside_->memory = std::move(memory);
-    if (inside_->multigrid && inside_->memory.set_up)
-        inside_->multigrid->set_up(inside_->memory.diagonal, inside_->memory.link);
+    inside_->preconditioner->recall(std::move(memory));
 }
 
 Outcome Pressure::solve(System const& system, Field& x, double tolerance, double floor)
 {
     Inside& in = *inside_;
-    auto each = [&in](auto&& visit) { grid::for_each_cell(in.grid, [&](int, int, int, Index c) { visit(c); }); };
-    bool const free = in.prepare(system);
-    double const mean = free ? in.mean(system.right) : 0;
-    auto right = [&](Index c) { return in.diagonal[c] > 0 ? system.right[c] - mean : 0.0; };
-    if (in.multigrid && (in.memory.stale || in.memory.solves >= most_solves_per_set_up)) in.set_up(system, free);
+    if (in.whole) return in.whole->solve(system, x, tolerance, floor);
+    Matrix const matrix = in.matrix(system);
+    Facts facts = in.look(system, x);
+    double const mean = facts.free ? in.mean(system.right) : 0;
+    facts.right = std::sqrt(in.sum([&](grid::Run const& line) {
+        return centre(line, in.diagonal.data(), system.right.data(), mean, in.residual.data());
+    }));
+    double const goal = std::max(tolerance * facts.right, floor);
 
-    double norm2 = 0;
-    each([&](Index c) {
-        if (in.diagonal[c] <= 0) x[c] = 0;
-        norm2 += right(c) * right(c);
-    });
-    norm2 = in.comm.sum(norm2);
-    double const goal = std::max(tolerance * std::sqrt(norm2), floor);
-
-    in.multiply(system, x, in.product);
-    each([&](Index c) { in.residual[c] = right(c) - in.product[c]; });
+    auto const start = [&] {
+        grid::refresh(in.grid, {&x});
+        return std::sqrt(in.sum([&](grid::Run const& line) {
+            return begin(line, matrix, in.diagonal.data(), system.right.data(), mean, x.data(), in.residual.data());
+        }));
+    };
     Outcome outcome;
-    outcome.residual = std::sqrt(in.dot(in.residual, in.residual));
-    if (outcome.residual > std::sqrt(norm2)) {  // a first guess worse than none
-        each([&](Index c) { x[c] = 0, in.residual[c] = right(c); });
-        outcome.residual = std::sqrt(norm2);
+    outcome.residual = start();
+    if (outcome.residual > facts.right) {  // a first guess worse than none
+        std::fill(x.begin(), x.end(), 0.0);
+        outcome.residual = start();
+    }
+    if (outcome.residual > goal) {
+        in.preconditioner->set_up(system, in.diagonal, facts);
+        in.hand_over();
     }
     double old = 0;
     while (outcome.residual > goal && outcome.iterations < most_iterations) {
-        in.precondition(in.residual, in.better);
-        double const now = in.dot(in.residual, in.better);
+        double const now = in.comm.sum(in.preconditioner->apply());
         double const keep = outcome.iterations > 0 ? now / old : 0;
         old = now;
-        each([&](Index c) { in.direction[c] = in.better[c] + keep * in.direction[c]; });
-        in.multiply(system, in.direction, in.product);
-        double const curve = in.dot(in.direction, in.product);
+        for (std::size_t line = 0; line < in.lines.size(); ++line) {
+            in.preconditioner->give(line, in.better.data());
+            turn(in.lines[line], in.better.data(), keep, in.direction.data());
+        }
+        grid::refresh(in.grid, {&in.direction});
+        double const curve = in.sum(
+            [&](grid::Run const& line) { return multiply(line, matrix, in.direction.data(), in.product.data()); });
         if (!(curve > 0)) break;  // nothing left but round-off
-        double const step = now / curve;
-        each([&](Index c) {
-            x[c] += step * in.direction[c];
-            in.residual[c] -= step * in.product[c];
-        });
-        outcome.residual = std::sqrt(in.dot(in.residual, in.residual));
         ++outcome.iterations;
+        double const step = now / curve;
+        double square = 0;
+        for (std::size_t line = 0; line < in.lines.size(); ++line) {
+            square += go(in.lines[line], step, in.direction.data(), in.product.data(), x.data(), in.residual.data());
+            in.preconditioner->take(line, in.residual.data() + in.lines[line].first);
+        }
+        outcome.residual = std::sqrt(in.comm.sum(square));
     }
     outcome.converged = outcome.residual <= goal;
-    if (free) {
+    if (facts.free) {
         double const shift = in.mean(x);
-        each([&](Index c) {
-            if (in.diagonal[c] > 0) x[c] -= shift;
-        });
+        for (auto const& line : in.lines)
+            for (Index c = line.first; c < line.end; ++c)
+                if (in.diagonal[c] > 0) x[c] -= shift;
     }
-    in.refresh(x);
-
-    auto& memory = in.memory;
-    ++memory.solves;
-    if (memory.fresh_iterations < 0) memory.fresh_iterations = outcome.iterations;
-    memory.stale = outcome.iterations > memory.fresh_iterations + patience;
+    grid::refresh(in.grid, {&x});
+    in.preconditioner->served(outcome.iterations);
     return outcome;
 }
 }

@@ -1,8 +1,10 @@
-// The pressure equation: a symmetric seven-point system on the cells of all ranks, by conjugate gradients.
+// The pressure equation: a symmetric seven-point system on the cells of all ranks, by preconditioned conjugate
+// gradients.
 //
-// Two preconditioners stand behind one interface: hypre's PFMG multigrid, and the diagonal as plain reference. The
-// set-up of PFMG costs several of its cycles, and the matrix changes little from step to step: so a set-up is kept
-// until the iterations grow. The residual is always that of the present matrix.
+// Four preconditioners stand behind one interface: an own geometric multigrid (multigrid.hpp), made anew in every
+// solve; hypre's PFMG and SMG; and the diagonal as plain reference. The set-up of hypre's costs several of their
+// cycles, and the matrix changes little from step to step: so it is kept until the iterations grow. The residual is
+// always that of the present matrix.
 #pragma once
 
 #include "granum/grid/grid.hpp"
@@ -32,7 +34,9 @@ struct System
 
 enum class Method
 {
-    multigrid,
+    multigrid,  //!< own
+    pfmg,       //!< hypre
+    smg,        //!< hypre
     diagonal
 };
 
@@ -43,10 +47,12 @@ struct Outcome
     bool converged = false;
 };
 
+class Preconditioner;
+
 class Pressure
 {
   public:
-    //! PFMG coarsens periodic directions by two only: other periodic sizes fall back to the diagonal.
+    //! hypre coarsens periodic directions by two only: other periodic sizes fall back to the own multigrid.
     Pressure(grid::Grid const& grid, par::Communicator const& comm, Method method);
     ~Pressure();
 
@@ -56,13 +62,13 @@ class Pressure
 
     Method method() const;
 
-    //! What the next solve depends on beside its arguments: the matrix that the preconditioner was made from, and how
-    //! it has served since. With it recalled, a new object on the same ranks goes on with the same bits.
+    //! What the next solve depends on beside its arguments: the matrix that hypre's preconditioner was made from, and
+    //! how it has served since. With it recalled, a new object on the same ranks goes on with the same bits.
     struct Memory
     {
         bool set_up = false, stale = true;
         int fresh_iterations = -1, solves = 0;
-        Field diagonal;  //!< empty where nothing is set up
+        Field diagonal;  //!< empty where nothing is kept
         FaceField link;
     };
     Memory const& memory() const;

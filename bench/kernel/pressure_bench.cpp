@@ -1,0 +1,126 @@
+// Time of a pressure solve by each method, on systems like those of a bubbling bed, to 1e-6 from a guess of zero:
+// microseconds per cell and solve and iterations. Methods take turns, so that a busy machine is unfair to none; median
+// and extremes. "kept": hypre's set-up is that of an earlier solve of the same system, the best case for keeping it.
+// For the own multigrid also the bytes that its loops ask for, against the triad of STREAM (McCalpin) in this process.
+//
+// bench_pressure [REPETITIONS], or on several ranks tools/mpi 2 bench_pressure [REPETITIONS].
+#include "granum/solve/pressure.hpp"
+#include "scene/bed_system.hpp"
+#include "scene/cells.hpp"
+
+#include <fmt/core.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+using namespace granum;
+using solve::Method;
+
+namespace
+{
+// Each array once per loop, stores without what they fetch first, neighbours from a cache. Doubles are 8 bytes; the
+// multigrid's numbers are 4, and a sweep passes over the cells of one colour but over the links of all.
+constexpr double half_sweep = 12 + 2 + 2 + 2 + 2;  // links; right side, inverse, x of either colour
+constexpr double finest_level =
+    (2 + 2 + 2) + 5 * half_sweep + (half_sweep + 4) + (2 + 4);  // start, residual, transfers
+constexpr double other_levels = ((2 + 2 + 2) + 11 * half_sweep + (half_sweep + 4) + (2 + 4)) / 7;  // eight to one
+constexpr double gradients = (4 + 16) + (24 + 8 + 8 + 8) + (48 + 4) + 8;  // direction, product, step, residual times z
+constexpr double bytes_per_iteration = finest_level + other_levels + gradients;
+constexpr double bytes_per_set_up = (32 + 8 + 16) + 24 + (32 + 32) + (8 + 4) + (32 + 16) + (16 + 8) + 16;
+
+struct Size
+{
+    char const* name;
+    std::array<int, 3> cells;
+    math::Vec3 width;  // of a cell, m
+};
+
+struct Candidate
+{
+    char const* name;
+    bool anew;  // the set-up, in each solve
+    std::unique_ptr<solve::Pressure> pressure;
+    std::vector<double> times{};  // us per cell
+    int iterations = 0;
+};
+
+double median(std::vector<double>& values)
+{
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+//! GB/s of a rank while all do the same.
+double triad(par::Communicator const& comm)
+{
+    constexpr std::size_t elements = std::size_t{8} << 20;
+    static std::vector<double> a(elements, 0.0), b(elements, 1.5), c(elements, 2.5);
+    comm.barrier();
+    double const start = MPI_Wtime();
+    for (std::size_t i = 0; i < elements; ++i) a[i] = b[i] + 3.0 * c[i];
+    double const taken = comm.max(MPI_Wtime() - start);
+    b[0] = a[elements / 2];  // the result is used, so the loop is not dropped
+    return 24e-9 * static_cast<double>(elements) / taken;
+}
+
+void measure(Size const& size, par::Communicator const& comm, int repetitions)
+{
+    math::Vec3 upper;
+    for (std::size_t d = 0; d < 3; ++d) upper[d] = size.cells[d] * size.width[d];
+    geometry::Chamber const chamber{.size = upper};
+    auto const grid = cut_evenly(chamber, grid::uniform_lines({}, upper, size.cells), {}, comm);
+    auto const system = bed_system(grid);
+    double const cells = static_cast<double>(size.cells[0]) * size.cells[1] * size.cells[2];
+
+    std::vector<Candidate> candidates;
+    auto const add = [&](char const* name, Method method, bool anew) {
+        candidates.push_back({name, anew, std::make_unique<solve::Pressure>(grid, comm, method)});
+    };
+    add("multigrid", Method::multigrid, false);
+    add("pfmg", Method::pfmg, true);
+    add("pfmg, kept", Method::pfmg, false);
+    add("smg", Method::smg, true);
+    add("smg, kept", Method::smg, false);
+    add("diagonal", Method::diagonal, false);
+    std::vector<double> rates;
+    for (int k = -1; k < repetitions; ++k) {  // the first turn only warms up
+        for (auto& candidate : candidates) {
+            auto x = grid.make_field();
+            if (candidate.anew) candidate.pressure->recall({});
+            comm.barrier();
+            double const start = MPI_Wtime();
+            candidate.iterations = candidate.pressure->solve(system, x, 1e-6).iterations;
+            double const taken = comm.max(MPI_Wtime() - start);
+            if (k >= 0) candidate.times.push_back(1e6 * taken / cells);
+        }
+        rates.push_back(triad(comm));
+    }
+    if (!comm.root()) return;
+    for (auto& candidate : candidates) {
+        double const middle = median(candidate.times);
+        fmt::print("{:22} {:10} {:5} iterations {:9.4f} us per cell ({:.4f} to {:.4f})\n", size.name, candidate.name,
+                   candidate.iterations, middle, candidate.times.front(), candidate.times.back());
+    }
+    auto const& own = candidates.front();
+    double const bytes = bytes_per_set_up + own.iterations * bytes_per_iteration;
+    double const seconds = own.times[own.times.size() / 2] * 1e-6 * comm.size();  // of a rank, per cell
+    fmt::print(
+        "{:22} multigrid  {:.0f} bytes per cell and iteration, {:.0f} per solve: {:.1f} GB/s a rank; triad {:.1f}\n",
+        size.name, bytes_per_iteration, bytes, 1e-9 * bytes / seconds, median(rates));
+}
+}
+
+int main(int argc, char** argv)
+{
+    MPI_Init(&argc, &argv);
+    {
+        par::Communicator const comm;
+        int const repetitions = argc > 1 ? std::max(std::atoi(argv[1]), 1) : 15;
+        measure({"5,400 (2x30x90)", {2, 30, 90}, {7.5e-3, 5e-3, 5e-3}}, comm, repetitions);
+        measure({"131,072 (32x32x128)", {32, 32, 128}, {5e-3, 5e-3, 5e-3}}, comm, repetitions);
+        measure({"1,048,576 (64x64x256)", {64, 64, 256}, {5e-3, 5e-3, 5e-3}}, comm, std::max(repetitions / 3, 3));
+    }
+    MPI_Finalize();
+    return 0;
+}
