@@ -159,7 +159,6 @@ struct InletCase : FlowCase
 {
     OpeningCase at;
     double tracer = 0;      //!< kg/kg moist gas
-    double resistance = 0;  //!< K of K rho u^2 / 2, of the plate
 };
 
 //! [[outlet]]

@@ -160,8 +160,6 @@ InletCase read_inlet(io::CaseFile& file, Case const& data, std::string const& ke
     static_cast<FlowCase&>(inlet) = read_flow(file, key, gas, inlet.temperature);
     inlet.tracer = file.quantity(key + "tracer", Dimension::one, 0.0, "kg per kg of what enters", io::zero_to_one);
     if (inlet.tracer > 0 && !gas.tracer) file.mistake(key + "tracer", "needs [gas.tracer]");
-    inlet.resistance = file.quantity(key + "resistance", Dimension::one, 0.0,
-                                     "K of the plate: it costs K rho u^2 / 2, u superficial", io::not_negative);
     return inlet;
 }
 

@@ -151,7 +151,6 @@ gas::Settings gas_settings(Case const& data)
                                    .temperature = inlet.temperature,
                                    .vapour_fraction = material::fraction(inlet.humidity),
                                    .tracer_fraction = inlet.tracer,
-                                   .resistance = inlet.resistance,
                                    .at = opening(data, inlet.at)});
     for (auto const& outlet : gas.outlets)
         settings.outlets.push_back({.pressure = outlet.pressure,
