@@ -157,6 +157,7 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     in.refresh({&state.voidage});
     for (Index c = 0; c < in.gas_volume.size(); ++c) in.gas_volume[c] = state.voidage[c] * in.grid.open_volume[c];
     in.static_before = state.static_pressure;
+    in.sweeps = 0;
     SharedSources const shared = in.share(sources);
     in.predict(state, shared, dt);
     in.expected_temperature = state.temperature;
@@ -182,6 +183,7 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     }
     balance.pressure_iterations = total.pressure_iterations;
     balance.pressure_converged = total.pressure_converged;
+    balance.sweeps = in.sweeps;
     in.refresh({&state.vapour, &state.tracer, &state.enthalpy, &state.temperature, &state.vapour_fraction,
                 &state.tracer_fraction, &state.density});
     in.check(state);

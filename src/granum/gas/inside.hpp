@@ -143,6 +143,7 @@ struct Solver::Inside
     FaceField middle_flux;                   //!< mass flux in the middle of the step, kg/s
     std::array<Field, 3> friction, dragged;  //!< of walls in a cell on a component, kg/s; times the walls' velocity, N
     FaceField begun;                         //!< velocities at the beginning of the step
+    int sweeps = 0;                          //!< done in this step
     Rows rows, halves;                       //!< of the step; of the correction of convection
     Field change, half;                      //!< the correction; 1/2 everywhere
     FaceField link_flux;                     //!< mass flux through the links of one velocity component, kg/s

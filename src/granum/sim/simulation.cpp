@@ -2,6 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
+#include "granum/gas/traffic.hpp"
 #include "granum/grid/build.hpp"
 #include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
@@ -176,6 +177,11 @@ void Simulation::gas_step(double dt)
         auto const scope = stopwatch_.time(base::Stage::gas);
         last_ = solver_->advance(gas_, sources_, voidage, dt);
         unconverged_ += !last_.pressure_converged;
+        double const cells = static_cast<double>(grid_.n[0]) * grid_.n[1] * grid_.n[2];
+        gas_work_.cell_steps += cells;
+        gas_work_.bytes += cells * gas::bytes_per_cell(last_);
+        gas_work_.iterations += cells * last_.pressure_iterations;
+        gas_work_.sweeps += cells * last_.sweeps;
         in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
         in_[2] += last_.enthalpy_in + last_.pressure_work, out_[2] += last_.enthalpy_out + last_.wall_heat;
     }
