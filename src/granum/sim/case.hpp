@@ -232,7 +232,7 @@ struct GasCase
     std::string mapping = "kernel";   //!< or "centre" or "divided"
     std::optional<double> smoothing;  //!< bandwidth of the smoothing of what granules and gas share, m; none: by size
     bool closed = false;              //!< no inlet and no outlet (periodic or closed box)
-    long rebalance_every = 0;  //!< gas steps after which ranks share space anew; 0: where their work is uneven
+    long rebalance_every = 0;         //!< gas steps after which ranks share space anew; 0: where their work is uneven
     Vec3 initial_velocity;            //!< m/s
 };
 
@@ -328,6 +328,8 @@ struct Case
     std::array<bool, 3> periodic{};             //!< of a box
     std::array<std::array<bool, 2>, 3> open{};  //!< [axis][low, high]: faces without a wall
     bool discharge = false;                     //!< granules that leave through open faces are counted, not an error
+    std::vector<geometry::Body> bodies;         //!< walls of [[apparatus.solid]] and [[internal]]
+    double resolution = 0;                      //!< to which walls of joined bodies are drawn, m
     std::vector<geometry::Body> walls;          //!< [[wall]], besides those of the chamber
     Vec3 gravity{0, 0, -math::standard_gravity};
     std::uint32_t seed = 1;

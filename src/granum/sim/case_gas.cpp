@@ -181,9 +181,9 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
         file.name("gas.mapping", gas.mapping, "of granules to cells", {"kernel", "centre", "divided"}, "a way");
     gas.smoothing = file.optional_quantity("gas.smoothing", Dimension::length,
                                            "bandwidth of what granules and gas share; 0 mm: off", io::not_negative);
-    gas.rebalance_every = file.integer("gas.rebalance_every", 0,
-                                       "gas steps between shares of space among ranks; 0: where work is uneven", 0,
-                                       1000000000);
+    gas.rebalance_every =
+        file.integer("gas.rebalance_every", 0, "gas steps between shares of space among ranks; 0: where work is uneven",
+                     0, 1000000000);
     gas.initial_velocity =
         file.vector("gas.initial_velocity", Dimension::velocity, math::Vec3{}, "of the gas at the start");
 }
@@ -212,7 +212,7 @@ void read_cells(io::CaseFile& file, Case& data)
         if (std::isfinite(fine.lower + fine.upper + fine.size)) gas.fine.push_back(fine);
     }
     if (!file.has("apparatus") || file.wrong("apparatus.shape") || file.wrong("apparatus.profile") ||
-        file.wrong("apparatus.size"))
+        file.wrong("apparatus.size") || !data.chamber.known())
         return;
     auto const low = data.chamber.lower(), high = data.chamber.upper(), extent = high - low;
     if (!cells.empty()) {

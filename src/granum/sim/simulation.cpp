@@ -202,8 +202,7 @@ void Simulation::find_nozzle_cells()
         grid::Field share = grid_.make_field();
         double sum = 0;
         grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
-            share[c] =
-                nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
+            share[c] = nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
             sum += share[c];
         });
         sum = comm_.sum(sum);
