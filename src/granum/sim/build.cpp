@@ -28,6 +28,11 @@ std::vector<geometry::Body> walls(Case const& data)
 {
     auto const& chamber = data.chamber;
     std::vector<geometry::Body> out;
+    if (chamber.shape == geometry::Chamber::Shape::solids) {
+        out = data.bodies;
+        out.insert(out.end(), data.walls.begin(), data.walls.end());
+        return out;
+    }
     auto const faces = [&](std::size_t axis) {
         constexpr std::array<std::array<char const*, 2>, 3> names{
             {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
@@ -57,6 +62,7 @@ std::vector<geometry::Body> walls(Case const& data)
         }
         out.push_back(std::move(wall));
     }
+    out.insert(out.end(), data.bodies.begin(), data.bodies.end());
     out.insert(out.end(), data.walls.begin(), data.walls.end());
     return out;
 }
@@ -71,7 +77,7 @@ double collision_speed(Case const& data)
         double const density = data.gas.density ? *data.gas.density
                                                 : material::density(data.gas.pressure, data.gas.inlet.temperature,
                                                                     material::fraction(data.gas.inlet.humidity));
-        fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
+        fastest = std::max(fastest, flow / (density * data.chamber.area(data.chamber.bottom())));
     }
     return std::max(fastest, fastest_meeting(data) + fastest_wall(data));
 }

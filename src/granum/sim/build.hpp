@@ -26,7 +26,8 @@ dem::HardOptions hard_options(Case const& data);
 particle::Groups column_groups(Case const& data);
 
 gas::Settings gas_settings(Case const& data);  //!< gas_settings.cpp
-grid::Lines gas_lines(Case const& data);       //!< faces of the gas cells
+gas::Opening gas_opening(Case const& data, OpeningCase const& one);
+grid::Lines gas_lines(Case const& data);  //!< faces of the gas cells
 //! What passes heat between granules that touch.
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm);
 coupling::Laws exchange_laws(Case const& data);

@@ -329,6 +329,8 @@ struct Case
     std::array<bool, 3> periodic{};             //!< of a box
     std::array<std::array<bool, 2>, 3> open{};  //!< [axis][low, high]: faces without a wall
     bool discharge = false;                     //!< granules that leave through open faces are counted, not an error
+    std::vector<geometry::Body> bodies;         //!< walls of [[apparatus.solid]] and [[internal]]
+    double resolution = 0;                      //!< to which walls of joined bodies are drawn, m
     std::vector<geometry::Body> walls;          //!< [[wall]], besides those of the chamber
     Vec3 gravity{0, 0, -math::standard_gravity};
     std::uint32_t seed = 1;

@@ -97,7 +97,7 @@ void Simulation::start_deposits()
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
     double flow = 0;
     for (auto const& inlet : solver_->settings().inlets) flow += inlet.mass_flow;
-    double const speed = flow / (density * case_.chamber.area(0));
+    double const speed = flow / (density * case_.chamber.area(case_.chamber.bottom()));
     double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
     double const sherwood = std::visit(
         [&](auto const& law) {
@@ -113,7 +113,7 @@ void Simulation::start_deposits()
 
     // One deposit of the median droplet; the others dry in times proportional to the square of their diameter.
     double const median = spray.droplet_median;
-    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(0));
+    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(case_.chamber.bottom()));
     auto const& nozzle = nozzles_.front();
     Vec3 const surface = nozzle.position + std::max(0.02, nozzle.position.z - 1.5 * settled) * nozzle.direction;
     law::impact::Impact const impact{spray.density, spray.viscosity, spray.surface_tension,
