@@ -63,6 +63,7 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
     find_openings();
     find_faces();
     find_walls();
+    make_closure();
 }
 
 double Solver::Inside::viscosity(double temperature) const

@@ -173,7 +173,8 @@ particle::Groups column_groups(Case const& data)
             .gas = gas,
             .process = gas,
             .added_mass = gas && (forces.virtual_mass != "none" || forces.history > 0),
-            .turning = gas && forces.torque != "none"};
+            .turning = gas && forces.torque != "none",
+            .eddies = gas && data.gas.dispersion != "none"};
 }
 
 double smoothing(Case const& data)
@@ -190,6 +191,17 @@ coupling::Scheme mapping_scheme(Case const& data)
                                            : coupling::Scheme::kernel;
 }
 
+namespace
+{
+law::dispersion::Any dispersion(Case const& data, std::string const& name)
+{
+    auto law = named<law::dispersion::All>(name);
+    if (auto* const langevin = std::get_if<law::dispersion::Langevin>(&law))
+        langevin->time_ratio = data.gas.turbulence.memory;
+    return law;
+}
+}
+
 coupling::Laws exchange_laws(Case const& data)
 {
     auto const& forces = data.gas.forces;
@@ -202,7 +214,9 @@ coupling::Laws exchange_laws(Case const& data)
             .history = forces.history > 0,
             .polydisperse = forces.polydisperse,
             .filtered = forces.filtered,
-            .emissivity = data.granules.emissivity};
+            .emissivity = data.granules.emissivity,
+            .dispersion = dispersion(data, data.gas.dispersion),
+            .seed = data.seed};
 }
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
@@ -264,6 +278,7 @@ spray::FlightSettings flight_settings(Case const& data)
             .pressure = data.gas.pressure,
             .end_moisture = data.drying.end_moisture,
             .longest_hop = 0.25 * cell,
+            .dispersion = dispersion(data, data.spray.dispersion),
             .seed = data.seed};
 }
 

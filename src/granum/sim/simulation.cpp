@@ -136,7 +136,7 @@ void Simulation::gas_step(double dt)
         auto const scope = stopwatch_.time(base::Stage::exchange);
         mapping_->locate(granules_);
         voidage = exchange_->voidage(granules_);
-        exchange_->share(granules_, gas_, dt, seen_, sources_);
+        exchange_->share(granules_, gas_, dt, seen_, sources_, static_cast<std::uint32_t>(steps_));
     }
     if (case_.spray.present) {
         auto const scope = stopwatch_.time(base::Stage::spray_and_drying);
@@ -255,7 +255,7 @@ void Simulation::fly_droplets(double dt)
             droplets_.push_back(droplet);
         }
     }
-    around_->prepare(*solver_, gas_, granules_, sources_, dt);
+    around_->prepare(*solver_, gas_, granules_, sources_, dt, case_.spray.dispersion != "none");
     spray::Outcome outcome;
     spray::fly(droplets_, flight_, case_.chamber, *around_, dt, static_cast<std::uint32_t>(steps_), outcome);
     mine_.evaporated += outcome.evaporated;

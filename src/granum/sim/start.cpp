@@ -42,6 +42,7 @@ void Simulation::make_gas()
         wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
     }
     solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
+    gas_.turbulent = law::turbulence::transports(solver_->settings().turbulence.model);
     mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, smoothing(case_), mapping_scheme(case_));
     exchange_ = std::make_unique<coupling::Exchange>(
         exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
