@@ -1,5 +1,5 @@
-// Cells and granules of a place are on one rank, and every rank has as much to do. Work is counted, never timed, so a run
-// that is continued is cut as the run that was not.
+// Cells and granules of a place are on one rank, and every rank has as much to do. Work is counted, never timed, so a
+// run that is continued is cut as the run that was not.
 #include "granum/grid/recut.hpp"
 #include "granum/sim/simulation.hpp"
 
@@ -12,7 +12,7 @@ namespace
 // In steps of a granule without contacts, measured: what a gas step costs for a cell and for a granule.
 constexpr double work_of_cell = 20, work_of_exchange = 6;
 constexpr int gas_steps_between_looks = 100;
-constexpr double bearable = 1.1;     // largest work of a rank over the mean
+constexpr double bearable = 1.1;      // largest work of a rank over the mean
 constexpr double worth_while = 0.95;  // largest work after cutting anew over that before
 
 std::vector<double> work_by_rank(par::Partition const& partition, std::vector<math::Vec3> const& points,

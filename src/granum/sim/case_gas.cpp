@@ -181,9 +181,9 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
         file.name("gas.mapping", gas.mapping, "of granules to cells", {"kernel", "centre", "divided"}, "a way");
     gas.smoothing = file.optional_quantity("gas.smoothing", Dimension::length,
                                            "bandwidth of what granules and gas share; 0 mm: off", io::not_negative);
-    gas.rebalance_every = file.integer("gas.rebalance_every", 0,
-                                       "gas steps between shares of space among ranks; 0: where work is uneven", 0,
-                                       1000000000);
+    gas.rebalance_every =
+        file.integer("gas.rebalance_every", 0, "gas steps between shares of space among ranks; 0: where work is uneven",
+                     0, 1000000000);
     gas.initial_velocity =
         file.vector("gas.initial_velocity", Dimension::velocity, math::Vec3{}, "of the gas at the start");
 }
