@@ -5,7 +5,7 @@ import pathlib
 import re
 import sys
 
-SECTIONS = "apparatus|gas|granules|contact|spray|drying|product|start|time|output"
+SECTIONS = "apparatus|gas|inlet|outlet|granules|contact|spray|drying|product|start|time|output"
 
 # Functions that read keys of sections which they are told: where their `key + "name"` belongs.
 PREFIXES = {
@@ -17,11 +17,24 @@ PREFIXES = {
     },
     "case_granules.cpp": {"read_amount": ["granules.", "granules.batch."], "read_batches": ["granules.batch."]},
     "case_feed.cpp": {"read_box": ["granules.region.", "feed.", "output.box."], "read_feeds": ["feed."]},
+    "case_gas.cpp": {
+        "read_flow": ["gas.", "inlet."],
+        "read_humidity": ["gas.", "inlet."],
+        "read_forces": ["gas."],
+        "read_cells": ["gas.fine."],
+    },
+    "case_openings.cpp": {
+        "read_opening": ["inlet.", "outlet."],
+        "read_profile": ["inlet."],
+        "read_inlet": ["inlet."],
+        "read_outlet": ["outlet."],
+        "read_gas_walls": ["gas.wall."],
+    },
     "case_output.cpp": {"read_output": ["output.box."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
     "case_walls.cpp": {"WallReader": ["wall."]},
 }
-CALLS = r'(?<!derived\()(?<!section = )\b(?:(?:key|prefix) \+ |(?:length|point|direction|moves)\()"([a-z_]+)"'
+CALLS = r'(?<!derived\()(?<!section = )\b(?:(?:key|prefix) \+ |(?:length|point|direction|moves|law)\()"((?:flow_reference\.)?[a-z_]+)"'
 
 
 def keys_with_prefix(name, text):

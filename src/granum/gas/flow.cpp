@@ -205,7 +205,7 @@ double Solver::courant_step(State const& state, double courant) const
 Vec3 Solver::momentum(State const& state) const
 {
     Inside const& in = *inside_;
-    Field const& mass = state.last_step > 0 ? in.inertia : state.mass;
+    Field const& mass = in.stepped ? in.inertia : state.mass;
     std::array<double, 3> sums{};
     for (std::size_t d = 0; d < 3; ++d)
         for (auto const& run : in.faces[d])

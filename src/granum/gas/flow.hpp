@@ -115,8 +115,8 @@ class Solver
     //! moved.
     Field const& exchanged_temperature() const;
 
-    //! Momentum of the gas on all faces of all ranks, kg m/s, with the mass of the middle of the last step: what the
-    //! forces of all steps of equal length add up to. Collective.
+    //! Momentum of the gas on all faces of all ranks, kg m/s, with the mass of the middle of the last step that this
+    //! solver took (none: of now): what the forces of all steps of equal length add up to. Collective.
     Vec3 momentum(State const& state) const;
 
     //! Flow and state of what enters may change from step to step.

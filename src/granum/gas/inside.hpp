@@ -136,7 +136,8 @@ struct Solver::Inside
     FaceField mobility;  //!< m_f/dt + K_f + friction, kg/s
     FaceField stress;    //!< force of the viscous stress on the faces' volumes per volume, N/m3
     Field inertia;       //!< mass of the cells in the middle of the step, kg
-    Field gas_volume;    //!< eps V, m3
+    bool stepped = false;
+    Field gas_volume;  //!< eps V, m3
     //! What the equation of state takes: as of the beginning of the step, or what came of its last trial.
     Field expected_temperature, expected_vapour, expected_tracer;
     Field viscous;                           //!< viscosity of the cells, Pa s

@@ -271,6 +271,7 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, double 
             inertia[c] = std::max(inertia[c] - 0.5 * dt * leaves, 0.5 * inertia[c]);
         }
     refresh({&inertia});
+    stepped = true;
 
     for (std::size_t d = 0; d < 3; ++d) {
         std::fill(friction[d].begin(), friction[d].end(), 0.0);

@@ -44,9 +44,6 @@ struct Inlet
     double temperature = 293.15;  //!< K
     double vapour_fraction = 0;   //!< kg/kg moist gas
     double tracer_fraction = 0;   //!< kg/kg moist gas
-    //! K of the plate that the gas comes through: it costs K rho u^2 / 2 with the superficial u, so that the flow goes
-    //! where the bed is lighter. 0: the flow is distributed as Opening::share says whatever lies above.
-    double resistance = 0;
     Opening at{};
 };
 

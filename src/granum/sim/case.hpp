@@ -164,8 +164,7 @@ struct OpeningCase
 struct InletCase : FlowCase
 {
     OpeningCase at;
-    double tracer = 0;      //!< kg/kg moist gas
-    double resistance = 0;  //!< K of K rho u^2 / 2, of the plate
+    double tracer = 0;  //!< kg/kg moist gas
 };
 
 //! [[outlet]]
@@ -238,8 +237,10 @@ struct GasCase
     std::string mapping = "kernel";   //!< or "centre" or "divided"
     std::optional<double> smoothing;  //!< bandwidth of the smoothing of what granules and gas share, m; none: by size
     bool closed = false;              //!< no inlet and no outlet (periodic or closed box)
-    long rebalance_every = 0;         //!< gas steps after which ranks share space anew; 0: where their work is uneven
-    Vec3 initial_velocity;            //!< m/s
+    double tolerance = 1e-6;          //!< of the pressure's equation
+    std::string pressure_solver = "multigrid";
+    long rebalance_every = 0;  //!< gas steps after which ranks share space anew; 0: where their work is uneven
+    Vec3 initial_velocity;     //!< m/s
 };
 
 //! [spray]: one liquid, any number of nozzles share its rate equally (this issue: one nozzle).

@@ -184,6 +184,11 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
     gas.rebalance_every =
         file.integer("gas.rebalance_every", 0, "gas steps between shares of space among ranks; 0: where work is uneven",
                      0, 1000000000);
+    gas.tolerance =
+        file.quantity("gas.tolerance", Dimension::one, gas.tolerance,
+                      "of the pressure's equation, relative to its right side", {.low = 1e-13, .high = 1e-2});
+    gas.pressure_solver = file.name("gas.pressure_solver", gas.pressure_solver, "preconditioner of conjugate gradients",
+                                    {"multigrid", "pfmg", "smg", "diagonal"}, "a pressure solver");
     gas.initial_velocity =
         file.vector("gas.initial_velocity", Dimension::velocity, math::Vec3{}, "of the gas at the start");
 }

@@ -148,6 +148,35 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
     if (out.holes.empty() && !file.wrong(key + "hole_file") && !file.wrong(key + "profile") && pitch && hole)
         file.mistake(key + "pitch", "leaves no hole in the opening");
 }
+
+InletCase read_inlet(io::CaseFile& file, Case const& data, std::string const& key, std::string const& fallback_name)
+{
+    GasCase const& gas = data.gas;
+    InletCase inlet;
+    inlet.at = read_opening(file, data, key, fallback_name, "bottom");
+    read_profile(file, data, key, inlet.at);
+    inlet.temperature = file.quantity(key + "temperature", Dimension::temperature, gas.inlet.temperature,
+                                      "of what enters", {.low = 200, .high = 1000});
+    static_cast<FlowCase&>(inlet) = read_flow(file, key, gas, inlet.temperature);
+    inlet.tracer = file.quantity(key + "tracer", Dimension::one, 0.0, "kg per kg of what enters", io::zero_to_one);
+    if (inlet.tracer > 0 && !gas.tracer) file.mistake(key + "tracer", "needs [gas.tracer]");
+    return inlet;
+}
+
+OutletCase read_outlet(io::CaseFile& file, Case const& data, std::string const& key, std::string const& fallback_name)
+{
+    GasCase const& gas = data.gas;
+    OutletCase outlet;
+    outlet.at = read_opening(file, data, key, fallback_name, "top");
+    outlet.pressure = file.quantity(key + "pressure", Dimension::pressure, 0.0, "above gas.pressure");
+    outlet.resistance = file.quantity(key + "resistance", Dimension::flow_resistance, outlet.resistance,
+                                      "of the filter: pressure drop per velocity; 0: open", io::not_negative);
+    outlet.temperature = file.quantity(key + "temperature", Dimension::temperature, gas.inlet.temperature,
+                                       "of what is drawn in", {.low = 200, .high = 1000});
+    outlet.humidity = file.quantity(key + "humidity", Dimension::one, gas.inlet.humidity,
+                                    "of what is drawn in, kg water per kg dry air", io::not_negative);
+    return outlet;
+}
 }
 
 void read_openings(io::CaseFile& file, Case& data)
@@ -165,31 +194,14 @@ void read_openings(io::CaseFile& file, Case& data)
     };
     for (int i = 0; i < inlets; ++i) {
         auto const key = fmt::format("inlet[{}].", i);
-        InletCase inlet;
-        inlet.at = read_opening(file, data, key, inlets > 1 ? fmt::format("inlet-{}", i) : "inlet", "bottom");
+        InletCase inlet = read_inlet(file, data, key, inlets > 1 ? fmt::format("inlet-{}", i) : "inlet");
         unique(key, inlet.at.name);
-        read_profile(file, data, key, inlet.at);
-        inlet.temperature = file.quantity(key + "temperature", Dimension::temperature, gas.inlet.temperature,
-                                          "of what enters", {.low = 200, .high = 1000});
-        static_cast<FlowCase&>(inlet) = read_flow(file, key, gas, inlet.temperature);
-        inlet.tracer = file.quantity(key + "tracer", Dimension::one, 0.0, "kg per kg of what enters", io::zero_to_one);
-        if (inlet.tracer > 0 && !gas.tracer) file.mistake(key + "tracer", "needs [gas.tracer]");
-        inlet.resistance = file.quantity(key + "resistance", Dimension::one, 0.0,
-                                         "K of the plate: it costs K rho u^2 / 2, u superficial", io::not_negative);
         gas.inlets.push_back(std::move(inlet));
     }
     for (int i = 0; i < outlets; ++i) {
         auto const key = fmt::format("outlet[{}].", i);
-        OutletCase outlet;
-        outlet.at = read_opening(file, data, key, outlets > 1 ? fmt::format("outlet-{}", i) : "outlet", "top");
+        OutletCase outlet = read_outlet(file, data, key, outlets > 1 ? fmt::format("outlet-{}", i) : "outlet");
         unique(key, outlet.at.name);
-        outlet.pressure = file.quantity(key + "pressure", Dimension::pressure, 0.0, "above gas.pressure");
-        outlet.resistance = file.quantity(key + "resistance", Dimension::flow_resistance, outlet.resistance,
-                                          "of the filter: pressure drop per velocity; 0: open", io::not_negative);
-        outlet.temperature = file.quantity(key + "temperature", Dimension::temperature, gas.inlet.temperature,
-                                           "of what is drawn in", {.low = 200, .high = 1000});
-        outlet.humidity = file.quantity(key + "humidity", Dimension::one, gas.inlet.humidity,
-                                        "of what is drawn in, kg water per kg dry air", io::not_negative);
         gas.outlets.push_back(std::move(outlet));
     }
     if (inlets > 0 && outlets == 0 && gas.compressibility == "constant")

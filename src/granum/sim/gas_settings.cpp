@@ -151,7 +151,6 @@ gas::Settings gas_settings(Case const& data)
                                    .temperature = inlet.temperature,
                                    .vapour_fraction = material::fraction(inlet.humidity),
                                    .tracer_fraction = inlet.tracer,
-                                   .resistance = inlet.resistance,
                                    .at = opening(data, inlet.at)});
     for (auto const& outlet : gas.outlets)
         settings.outlets.push_back({.pressure = outlet.pressure,
@@ -164,6 +163,11 @@ gas::Settings gas_settings(Case const& data)
     settings.compressibility = gas.compressibility == "constant" ? gas::Compressibility::constant
                                : gas.compressibility == "full"   ? gas::Compressibility::full
                                                                  : gas::Compressibility::low_mach;
+    settings.tolerance = gas.tolerance;
+    settings.pressure_solver = gas.pressure_solver == "pfmg"       ? solve::Method::pfmg
+                               : gas.pressure_solver == "smg"      ? solve::Method::smg
+                               : gas.pressure_solver == "diagonal" ? solve::Method::diagonal
+                                                                   : solve::Method::multigrid;
     settings.second_order = gas.convection == "second-order";
     settings.pressure = gas.pressure;
     settings.gravity = data.gravity;

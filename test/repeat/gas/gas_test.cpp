@@ -87,7 +87,7 @@ TEST(GasOnRanks, momentum_of_a_periodic_box_is_kept)
     run.step(1e-3);
     auto const before = run.solver.momentum(run.state);
     for (int step = 0; step < 50; ++step) run.step(1e-3);
-    EXPECT_LT(norm(run.solver.momentum(run.state) - before), 1e-7 * norm(before));
+    EXPECT_LT(norm(run.solver.momentum(run.state) - before), 1e-12 * norm(before));
 }
 
 TEST(GasOnRanks, fold_is_the_adjoint_of_refresh)
