@@ -111,6 +111,7 @@ struct Solver::Inside
     FaceField area;                           //!< open to the gas, m2: ends without inlet or outlet are closed
     FaceField face_volume;                    //!< of the momentum control volumes, m3; 1 where nothing is solved for
     FaceField solved;                         //!< 1 for faces between two open cells
+    FaceField bounding;                       //!< 1 for these and for inlets: what both sides bound a scalar
     FaceField per_gap;                        //!< 1 over the distance of the cells' centres, 1/m
     FaceField low_share;                      //!< weight of the lower cell in the value at a face
     std::array<FaceField, 3> coupled, reach;  //!< of links: 1 where both faces are there; viscous area over distance, m

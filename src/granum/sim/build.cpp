@@ -149,6 +149,8 @@ dem::Settings granule_settings(Case const& data)
     settings.gravity = data.gravity;
     settings.frozen = data.granules.frozen;
     settings.largest_radius = largest_radius(data);
+    // Granules may grow by a tenth before their gas is cut short.
+    if (data.contact.films()) settings.sight = 1.1 * data.contact.film_lens * settings.largest_radius;
     return settings;
 }
 
@@ -221,12 +223,26 @@ coupling::Laws exchange_laws(Case const& data)
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
 {
-    std::vector<coupling::Conductor> conductors;
-    for (auto const& material : data.contact.materials)
-        conductors.push_back({.conductivity = material.heat_conductivity,
-                              .youngs_modulus = material.real_youngs_modulus,
-                              .poisson_ratio = material.poisson_ratio});
-    return {named<law::conduction::All>(data.contact.conduction), std::move(conductors), comm};
+    auto const& contact = data.contact;
+    coupling::Paths paths{.contact = named<law::conduction::All>(contact.conduction),
+                          .film = named<law::film::All>(contact.film),
+                          .lens = contact.film_lens,
+                          .shortest = contact.film_shortest,
+                          .gas = data.gas.conductivity,
+                          .collisions = contact.collisions};
+    for (auto const& material : contact.materials)
+        paths.materials.push_back({.conductivity = material.heat_conductivity,
+                                   .youngs_modulus = material.real_youngs_modulus,
+                                   .poisson_ratio = material.poisson_ratio,
+                                   .softened_modulus = material.youngs_modulus,
+                                   .rigid = material.rigid});
+    for (auto const& body : walls(data)) {
+        auto const& described = data.gas.walls;
+        auto const own =
+            std::find_if(described.begin(), described.end(), [&](auto const& w) { return w.of == body.name; });
+        paths.walls.push_back(own != described.end() ? own->temperature : described.front().temperature);
+    }
+    return {std::move(paths), comm};
 }
 
 spray::Liquid spray_liquid(Case const& data)

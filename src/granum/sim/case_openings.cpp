@@ -214,11 +214,9 @@ void read_openings(io::CaseFile& file, Case& data)
         unique(key, outlet.at.name);
         gas.outlets.push_back(std::move(outlet));
     }
-    bool const full = gas.compressibility == "full";
-    if (inlets > 0 && outlets == 0 && !full)
-        file.mistake(
-            "inlet", "lets gas in, but no [[outlet]] lets it out",
-            {"add [[outlet]] with end = \"top\"", "only gas.compressibility = \"full\" can fill a closed vessel"});
+    if (inlets > 0 && outlets == 0 && gas.compressibility == "constant")
+        file.mistake("inlet", "lets gas in, but no [[outlet]] lets it out",
+                     {"add [[outlet]] with end = \"top\"", "gas of constant density cannot fill a closed vessel"});
     auto const overlap = [](OpeningCase const& a, OpeningCase const& b) {
         return a.direction == b.direction && a.upper == b.upper && !a.rectangle && !b.rectangle && !a.round && !b.round;
     };

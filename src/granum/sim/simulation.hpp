@@ -38,6 +38,15 @@ struct SprayTotals
     long hits = 0;
 };
 
+//! Heat that passed since the start beside that between gas and granules, over all ranks, J.
+struct HeatTotals
+{
+    double contacts = 0, film = 0;            //!< between granules, either way
+    double wall_contacts = 0, wall_film = 0;  //!< from granules to walls, net
+    double wall_gas = 0;                      //!< from the gas to walls, net
+    double radiation = 0;                     //!< from granules to what is around them, which the gas bears, net
+};
+
 //! The outside of the process as it is now, over all ranks.
 struct Readings
 {
@@ -93,6 +102,7 @@ class Simulation
     Balance const& steady() const { return balance_; }
     Ledgers const& ledgers() const { return ledgers_; }
     SprayTotals totals() const;  //!< Collective.
+    HeatTotals heat() const;     //!< Collective.
     Readings readings() const;   //!< Collective.
     Traffic const& traffic() const { return traffic_; }
     std::vector<Feed> const& feeds() const { return feeds_; }
@@ -179,6 +189,7 @@ class Simulation
     //! Sums since the start on this rank: solids, water, energy that came in and went out.
     std::array<double, 3> in_{}, out_{};
     SprayTotals mine_;
+    HeatTotals heat_;
     gas::Balance last_;  //!< boundary flows of the last gas step
     GasWork gas_work_;
     std::vector<Feed> feeds_;

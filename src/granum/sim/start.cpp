@@ -67,8 +67,9 @@ void Simulation::start_gas()
                        case_.start.temperature_offset;
 
     for (std::size_t row = 0; row < granules_.owned; ++row) {
-        granules_.temperature[row] = bed;
-        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (bed - math::zero_celsius);
+        double& own = granules_.temperature[row];
+        if (!(own > 0)) own = bed;
+        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (own - math::zero_celsius);
     }
     Vec3 velocity = gas.initial_velocity;
     if (flows && velocity == Vec3{}) {

@@ -173,6 +173,15 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
             out["water"]["evaporated_last_two_thirds_kg"] = t.evaporated - first->totals.evaporated;
         }
     }
+    if (simulation.has_gas()) {
+        auto const heat = simulation.heat();
+        out["heat"] = {{"between_granules_by_contact_J", heat.contacts},
+                       {"between_granules_by_gas_J", heat.film},
+                       {"granules_to_walls_by_contact_J", heat.wall_contacts},
+                       {"granules_to_walls_by_gas_J", heat.wall_film},
+                       {"gas_to_walls_J", heat.wall_gas},
+                       {"radiated_by_granules_J", heat.radiation}};
+    }
     auto const& ledgers = simulation.ledgers();
     out["ledger"] = {{"solids", ledger(ledgers.solids)},
                      {"water", ledger(ledgers.water)},
