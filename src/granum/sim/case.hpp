@@ -158,7 +158,7 @@ struct OpeningCase
 struct InletCase : FlowCase
 {
     OpeningCase at;
-    double tracer = 0;      //!< kg/kg moist gas
+    double tracer = 0;  //!< kg/kg moist gas
 };
 
 //! [[outlet]]
