@@ -13,7 +13,7 @@ PREFIXES = {
         "read_pair": ["contact.", "contact.wall_", "contact.pair."],
         "read_pairs": ["contact.pair."],
         "read_contact": ["material."],
-        "read_conductor": ["contact.", "material."],
+        "read_conductor": ["contact.", "contact.wall_", "material."],
     },
     "case_granules.cpp": {"read_amount": ["granules.", "granules.batch."], "read_batches": ["granules.batch."]},
     "case_feed.cpp": {"read_box": ["granules.region.", "feed.", "output.box."], "read_feeds": ["feed."]},

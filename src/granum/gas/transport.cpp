@@ -131,6 +131,9 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
                  {&low_share[0], &low_share[1], &low_share[2]}},
                 x, earlier);
         std::array<double, 2> seen{range.most, -range.least};
+        for (std::size_t k = 0; k < settings.inlets.size(); ++k)
+            if (settings.inlets[k].mass_flow > 0)
+                seen = {std::max(seen[0], what.at_inlets[k]), std::max(seen[1], -what.at_inlets[k])};
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) seen = {std::max(seen[0], x[c]), std::max(seen[1], -x[c])};
         comm.max(seen);
@@ -138,7 +141,8 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
         Field& room = rows.partial;
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) room[c] = what.capacity[c] / dt;
-        limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]}, range.least, range.most);
+        limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]},
+                    {&bounding[0], &bounding[1], &bounding[2]}, range.least, range.most);
     }
 
     // What passed each face at the solution; contents change by that and by nothing else.
@@ -200,6 +204,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     if (set.tracer) {
         for (Index c = 0; c < grid.size(); ++c)
             property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] * set.tracer->diffusivity : 0;
+        if (closure) add_eddies(property, set.turbulence.schmidt);
         conduct(property);
         it.content = state.tracer;
         std::fill(it.source.begin(), it.source.end(), 0.0);
@@ -214,6 +219,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
         property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] *
                                          set.diffusivity.value_or(diffusivity(state.temperature[c], set.pressure))
                                    : 0;
+    if (closure) add_eddies(property, set.turbulence.schmidt);
     conduct(property);
     it.content = state.vapour;
     it.source = sources.vapour;
@@ -227,6 +233,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     for (Index c = 0; c < grid.size(); ++c)
         property[c] =
             grid.open(c) ? state.voidage[c] * set.conductivity.value_or(conductivity(state.temperature[c])) : 0;
+    if (closure) add_eddies(property, set.turbulence.prandtl / heat_capacity_air);
     conduct(property);
     for (std::size_t d = 0; d < 3; ++d)
         for (Index q = 0; q < grid.size(); ++q)
@@ -274,7 +281,8 @@ void Solver::Inside::add_walls(State const& state, Carried& heat)
             double conductance = share * piece.area * wall.loss;
             if (wall.temperature)
                 conductance = share * piece.area / piece.distance * state.voidage[c] *
-                              settings.conductivity.value_or(material::conductivity(state.temperature[c]));
+                              settings.conductivity.value_or(material::conductivity(state.temperature[c])) *
+                              (closure ? closure->wall_heat[first] : 1);
             if (conductance == 0) continue;
             double const outside = wall.temperature.value_or(wall.outside) - math::zero_celsius;
             heat.sink[c] += conductance;

@@ -149,6 +149,8 @@ dem::Settings granule_settings(Case const& data)
     settings.gravity = data.gravity;
     settings.frozen = data.granules.frozen;
     settings.largest_radius = largest_radius(data);
+    // Granules may grow by a tenth before their gas is cut short.
+    if (data.contact.films()) settings.sight = 1.1 * data.contact.film_lens * settings.largest_radius;
     return settings;
 }
 
@@ -173,7 +175,8 @@ particle::Groups column_groups(Case const& data)
             .gas = gas,
             .process = gas,
             .added_mass = gas && (forces.virtual_mass != "none" || forces.history > 0),
-            .turning = gas && forces.torque != "none"};
+            .turning = gas && forces.torque != "none",
+            .eddies = gas && data.gas.dispersion != "none"};
 }
 
 double smoothing(Case const& data)
@@ -190,6 +193,17 @@ coupling::Scheme mapping_scheme(Case const& data)
                                            : coupling::Scheme::kernel;
 }
 
+namespace
+{
+law::dispersion::Any dispersion(Case const& data, std::string const& name)
+{
+    auto law = named<law::dispersion::All>(name);
+    if (auto* const langevin = std::get_if<law::dispersion::Langevin>(&law))
+        langevin->time_ratio = data.gas.turbulence.memory;
+    return law;
+}
+}
+
 coupling::Laws exchange_laws(Case const& data)
 {
     auto const& forces = data.gas.forces;
@@ -202,17 +216,33 @@ coupling::Laws exchange_laws(Case const& data)
             .history = forces.history > 0,
             .polydisperse = forces.polydisperse,
             .filtered = forces.filtered,
-            .emissivity = data.granules.emissivity};
+            .emissivity = data.granules.emissivity,
+            .dispersion = dispersion(data, data.gas.dispersion),
+            .seed = data.seed};
 }
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
 {
-    std::vector<coupling::Conductor> conductors;
-    for (auto const& material : data.contact.materials)
-        conductors.push_back({.conductivity = material.heat_conductivity,
-                              .youngs_modulus = material.real_youngs_modulus,
-                              .poisson_ratio = material.poisson_ratio});
-    return {named<law::conduction::All>(data.contact.conduction), std::move(conductors), comm};
+    auto const& contact = data.contact;
+    coupling::Paths paths{.contact = named<law::conduction::All>(contact.conduction),
+                          .film = named<law::film::All>(contact.film),
+                          .lens = contact.film_lens,
+                          .shortest = contact.film_shortest,
+                          .gas = data.gas.conductivity,
+                          .collisions = contact.collisions};
+    for (auto const& material : contact.materials)
+        paths.materials.push_back({.conductivity = material.heat_conductivity,
+                                   .youngs_modulus = material.real_youngs_modulus,
+                                   .poisson_ratio = material.poisson_ratio,
+                                   .softened_modulus = material.youngs_modulus,
+                                   .rigid = material.rigid});
+    for (auto const& body : walls(data)) {
+        auto const& described = data.gas.walls;
+        auto const own =
+            std::find_if(described.begin(), described.end(), [&](auto const& w) { return w.of == body.name; });
+        paths.walls.push_back(own != described.end() ? own->temperature : described.front().temperature);
+    }
+    return {std::move(paths), comm};
 }
 
 spray::Liquid spray_liquid(Case const& data)
@@ -264,6 +294,7 @@ spray::FlightSettings flight_settings(Case const& data)
             .pressure = data.gas.pressure,
             .end_moisture = data.drying.end_moisture,
             .longest_hop = 0.25 * cell,
+            .dispersion = dispersion(data, data.spray.dispersion),
             .seed = data.seed};
 }
 

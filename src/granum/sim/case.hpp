@@ -48,6 +48,10 @@ struct ContactCase
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
     std::string conduction = "none";
+    std::string film = "none";       //!< heat through the gas between surfaces that touch or nearly do
+    double film_lens = 0.2;          //!< thickness of that gas over the radius of the larger granule
+    double film_shortest = 27.5e-9;  //!< way through it that is never undercut, m
+    bool collisions = false;         //!< contacts are collisions: heat passes for as long as real ones last
     //! s; of `linear`, in place of stiffnesses: of two of the smallest granules; of hard spheres: a collision sooner
     //! than this after another of the same granule is elastic.
     std::optional<double> contact_time;
@@ -59,6 +63,7 @@ struct ContactCase
 
     bool hard() const { return engine == "hard"; }
     bool conducts() const { return conduction != "none"; }
+    bool films() const { return film != "none"; }
 };
 
 //! One granule with its place: from [[granule]] tables, a CSV file or another run.
@@ -70,6 +75,7 @@ struct GranuleCase
     double count = 1;     //!< real granules in the parcel
     std::uint64_t id = 0;
     std::uint32_t material = 0;
+    double temperature = 0;  //!< K at the start; 0: that of the bed
 };
 
 //! A box in which granules appear.
@@ -159,6 +165,8 @@ struct InletCase : FlowCase
 {
     OpeningCase at;
     double tracer = 0;  //!< kg/kg moist gas
+    double turbulence_intensity = 0.05;
+    std::optional<double> turbulence_length;  //!< m
 };
 
 //! [[outlet]]
@@ -205,6 +213,23 @@ struct ForceCase
     bool polydisperse = false;  //!< drag of each size of a mixture
     bool filtered = false;      //!< drag of cells wider than clusters
 };
+//! Turbulence of the gas and the viscosity's law, in [gas].
+struct TurbulenceCase
+{
+    std::string model = "laminar";
+    std::map<std::string, double> constants;  //!< of the model and of the law of the wall
+    double intensity = 0.05;                  //!< of what enters
+    std::optional<double> velocity, length;   //!< at the start: m/s, m; the length also of what enters
+    double prandtl = 0.85, schmidt = 0.85;
+    double dense = 0.7, free = 0.95;  //!< voidages between which granules let eddies grow
+    bool granules = false;            //!< whether they damp and make turbulence
+    double wake = 0, memory = 0.3, rate = 1.5;
+};
+struct ViscosityCase
+{
+    std::string law = "newtonian";
+    double infinite = 0, time = 0, exponent = 1;  //!< Pa s, s, 1
+};
 struct GasCase
 {
     bool present = false;
@@ -228,6 +253,9 @@ struct GasCase
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";
     ForceCase forces;
+    TurbulenceCase turbulence;
+    ViscosityCase thinning;
+    std::string dispersion = "none";  //!< of what granules see of the turbulence
     std::string mapping = "kernel";   //!< or "centre" or "divided"
     std::optional<double> smoothing;  //!< bandwidth of the smoothing of what granules and gas share, m; none: by size
     bool closed = false;              //!< no inlet and no outlet (periodic or closed box)
@@ -267,6 +295,7 @@ struct SprayCase
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules
+    std::string dispersion = "none";   //!< of what droplets see of the turbulence
     bool allow_overwetting = false;
 };
 

@@ -177,6 +177,7 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
     gas.heat_transfer =
         file.name("gas.heat_transfer", gas.heat_transfer, "law", laws_for("gas.heat_transfer"), "a heat transfer law");
     read_forces(file, gas.forces);
+    read_turbulence(file, gas);
     gas.mapping =
         file.name("gas.mapping", gas.mapping, "of granules to cells", {"kernel", "centre", "divided"}, "a way");
     gas.smoothing = file.optional_quantity("gas.smoothing", Dimension::length,

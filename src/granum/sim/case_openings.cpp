@@ -164,6 +164,12 @@ InletCase read_inlet(io::CaseFile& file, Case const& data, std::string const& ke
     static_cast<FlowCase&>(inlet) = read_flow(file, key, gas, inlet.temperature);
     inlet.tracer = file.quantity(key + "tracer", Dimension::one, 0.0, "kg per kg of what enters", io::zero_to_one);
     if (inlet.tracer > 0 && !gas.tracer) file.mistake(key + "tracer", "needs [gas.tracer]");
+    inlet.turbulence_intensity =
+        file.quantity(key + "turbulence_intensity", Dimension::one, gas.turbulence.intensity,
+                      "root mean square of a fluctuation over the velocity of what enters", io::not_negative);
+    inlet.turbulence_length = file.optional_quantity(key + "turbulence_length", Dimension::length,
+                                                     "of the eddies that enter; 0.07 diameters", io::positive);
+    if (!inlet.turbulence_length) inlet.turbulence_length = gas.turbulence.length;
     return inlet;
 }
 
@@ -208,11 +214,9 @@ void read_openings(io::CaseFile& file, Case& data)
         unique(key, outlet.at.name);
         gas.outlets.push_back(std::move(outlet));
     }
-    bool const full = gas.compressibility == "full";
-    if (inlets > 0 && outlets == 0 && !full)
-        file.mistake(
-            "inlet", "lets gas in, but no [[outlet]] lets it out",
-            {"add [[outlet]] with end = \"top\"", "only gas.compressibility = \"full\" can fill a closed vessel"});
+    if (inlets > 0 && outlets == 0 && gas.compressibility == "constant")
+        file.mistake("inlet", "lets gas in, but no [[outlet]] lets it out",
+                     {"add [[outlet]] with end = \"top\"", "gas of constant density cannot fill a closed vessel"});
     auto const overlap = [](OpeningCase const& a, OpeningCase const& b) {
         return a.direction == b.direction && a.upper == b.upper && !a.rectangle && !b.rectangle && !a.round && !b.round;
     };
@@ -231,6 +235,8 @@ void read_openings(io::CaseFile& file, Case& data)
         InletCase plate;
         static_cast<FlowCase&>(plate) = gas.inlet;
         plate.at.name = "plate";
+        plate.turbulence_intensity = gas.turbulence.intensity;
+        plate.turbulence_length = gas.turbulence.length;
         gas.inlets.push_back(plate);
         OutletCase outlet;
         outlet.at = {.name = "outlet", .direction = 2, .upper = true};

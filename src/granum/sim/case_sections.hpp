@@ -17,6 +17,9 @@ void read_walls(io::CaseFile& file, Case& data);                      //!< after
 void read_region(io::CaseFile& file, Case& data);                     //!< after the apparatus
 void read_feeds(io::CaseFile& file, Case& data);                      //!< after the granules
 void read_gas(io::CaseFile& file, Case& data, Purpose purpose);
+void read_turbulence(io::CaseFile& file, GasCase& gas);  //!< and the law of the viscosity, of [gas]
+//! A mistake at `key` where the model of turbulence transports no k.
+void need_eddies(io::CaseFile& file, std::string const& key, GasCase const& gas);
 void read_openings(io::CaseFile& file, Case& data);   //!< [[inlet]], [[outlet]], after [gas]
 void read_gas_walls(io::CaseFile& file, Case& data);  //!< [[gas.wall]], after the apparatus
 //! Flow, temperature and humidity of a gas, at the keys that begin with `key` ("gas.").

@@ -138,6 +138,34 @@ gas::Opening gas_opening(Case const& data, OpeningCase const& one)
     return out;
 }
 
+namespace
+{
+gas::Turbulence turbulence(Case const& data)
+{
+    TurbulenceCase const& given = data.gas.turbulence;
+    gas::Turbulence out;
+    auto const model = law::turbulence::All::make(given.model);
+    base::require(model.has_value(), "there is no model of turbulence called \"{}\"", given.model);
+    out.model = *model;
+    auto const take = [&](char const* name, double& constant) {
+        auto const found = given.constants.find(name);
+        if (found != given.constants.end()) constant = found->second;
+    };
+    std::visit([&](auto& law) { law.each_constant(take); }, out.model);
+    out.wall.each_constant(take);
+    out.prandtl = given.prandtl, out.schmidt = given.schmidt;
+    out.dense = given.dense, out.free = given.free;
+    if (given.velocity) out.energy = 1.5 * *given.velocity * *given.velocity;
+    out.length = given.length;
+    out.granules = {.on = given.granules,
+                    .wake = given.wake,
+                    .lagrangian = given.memory,
+                    .rate = given.rate,
+                    .solids_density = data.granules.density};
+    return out;
+}
+}
+
 grid::Lines gas_lines(Case const& data)
 {
     auto lines = grid::uniform_lines(data.chamber.lower(), data.chamber.upper(), data.gas.cells);
@@ -156,6 +184,8 @@ gas::Settings gas_settings(Case const& data)
                                    .temperature = inlet.temperature,
                                    .vapour_fraction = material::fraction(inlet.humidity),
                                    .tracer_fraction = inlet.tracer,
+                                   .turbulence_intensity = inlet.turbulence_intensity,
+                                   .turbulence_length = inlet.turbulence_length,
                                    .at = gas_opening(data, inlet.at)});
     for (auto const& outlet : gas.outlets)
         settings.outlets.push_back({.pressure = outlet.pressure,
@@ -185,6 +215,10 @@ gas::Settings gas_settings(Case const& data)
     settings.diffusivity = gas.diffusivity;
     settings.molar_mass = gas.molar_mass;
     settings.vapour_molar_mass = gas.vapour_molar_mass;
+    settings.turbulence = turbulence(data);
+    auto const thinning = law::viscosity::All::make(gas.thinning.law);
+    base::require(thinning.has_value(), "there is no law of viscosity called \"{}\"", gas.thinning.law);
+    settings.thinning = {*thinning, gas.thinning.infinite, gas.thinning.time, gas.thinning.exponent};
     if (gas.tracer) settings.tracer = gas::Tracer{gas.tracer->diffusivity, gas.tracer->molar_mass};
     return settings;
 }

@@ -21,6 +21,14 @@ SprayTotals Simulation::totals() const
     return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], comm_.sum(all.hits)};
 }
 
+HeatTotals Simulation::heat() const
+{
+    std::array<double, 6> sums{heat_.contacts,  heat_.film,     heat_.wall_contacts,
+                               heat_.wall_film, heat_.wall_gas, heat_.radiation};
+    comm_.sum(sums);
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+}
+
 Readings Simulation::readings() const
 {
     enum

@@ -42,6 +42,7 @@ void Simulation::make_gas()
         wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
     }
     solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
+    gas_.turbulent = law::turbulence::transports(solver_->settings().turbulence.model);
     mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, smoothing(case_), mapping_scheme(case_));
     exchange_ = std::make_unique<coupling::Exchange>(
         exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
@@ -66,8 +67,9 @@ void Simulation::start_gas()
                        case_.start.temperature_offset;
 
     for (std::size_t row = 0; row < granules_.owned; ++row) {
-        granules_.temperature[row] = bed;
-        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (bed - math::zero_celsius);
+        double& own = granules_.temperature[row];
+        if (!(own > 0)) own = bed;
+        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (own - math::zero_celsius);
     }
     Vec3 velocity = gas.initial_velocity;
     if (flows && velocity == Vec3{}) {
