@@ -211,6 +211,11 @@ TEST(CaseSolids, that_do_not_make_a_chamber_are_told)
          "leaves nothing open");
     says(funnel + "[[internal]]\nshape = \"sphere\"\ndiameter = \"5 mm\"\ncentre = " + far + "\n",
          "does not stand in the apparatus");
+    says(funnel +
+             "[[apparatus.solid]]\noperation = \"subtract\"\nshape = \"box\"\nlower = [\"-60 mm\", \"-0.1 mm\", \"160 "
+             "mm\"]\n"
+             "upper = [\"60 mm\", \"0.1 mm\", \"190 mm\"]\n",
+         "give apparatus.resolution half of the thinnest wall");
     auto const filled = message_of(funnel + granules +
                                    "[granules.region]\nlower = [\"41 mm\", \"-5 mm\", \"185 mm\"]\n"
                                    "upper = [\"45 mm\", \"5 mm\", \"195 mm\"]\n");
