@@ -13,7 +13,7 @@ PREFIXES = {
         "read_pair": ["contact.", "contact.wall_", "contact.pair."],
         "read_pairs": ["contact.pair."],
         "read_contact": ["material."],
-        "read_conductor": ["contact.", "material."],
+        "read_conductor": ["contact.", "contact.wall_", "material."],
     },
     "case_granules.cpp": {"read_amount": ["granules.", "granules.batch."], "read_batches": ["granules.batch."]},
     "case_feed.cpp": {"read_box": ["granules.region.", "feed.", "output.box."], "read_feeds": ["feed."]},
@@ -32,6 +32,8 @@ PREFIXES = {
     },
     "case_output.cpp": {"read_output": ["output.box."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
+    "case_solid.cpp": {"Reader": ["apparatus.solid."]},
+    "case_solids.cpp": {"read_name": ["apparatus.solid.", "internal."], "read_solids": ["apparatus.solid."], "read_internals": ["internal."]},
     "case_walls.cpp": {"WallReader": ["wall."]},
 }
 CALLS = r'(?<!derived\()(?<!section = )\b(?:(?:key|prefix) \+ |(?:length|point|direction|moves|law)\()"((?:flow_reference\.)?[a-z_]+)"'

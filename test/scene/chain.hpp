@@ -4,6 +4,7 @@
 #include "granum/coupling/conduction.hpp"
 #include "scene/granules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -32,7 +33,10 @@ class Chain
         for (std::uint32_t other : {0u, 1u, 2u}) settings.laws.pair(2, other, {});
         settings.frozen = true;
         double length = 0;
-        for (auto const& link : links) length += 2 * link.radius - link.overlap;
+        for (auto const& link : links) {
+            length += 2 * link.radius - link.overlap;
+            settings.sight = std::max(settings.sight, 0.25 * link.radius);
+        }
         settings.lower = {0, -0.5 * length, -0.5 * length}, settings.upper = {length, 0.5 * length, 0.5 * length};
         int const parts = scene.comm.size();
         scene.slabs = par::Slabs::balanced(0, length / parts, false,
@@ -56,7 +60,7 @@ class Chain
 
     int pass(coupling::Conduction const& conduction, double dt)
     {
-        return conduction.pass(*scene.engine, scene.granules, capacity, dt);
+        return conduction.pass(*scene.engine, scene.granules, capacity, dt).parts;
     }
 
     //! Sums over the spheres of all ranks. Collective.

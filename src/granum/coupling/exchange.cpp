@@ -187,7 +187,8 @@ void Exchange::find_heat(particle::Store const& granules, double dt, Seen& seen)
                 seen.sherwood[row] = heat_law({.solid_fraction = phi, .reynolds = re, .prandtl = schmidt});
                 double const transfer =
                     granules.count[row] * nusselt * conductivity * math::pi * granules.diameter[row];
-                seen.heat[row] = transfer / (1 + dt * transfer / heat_capacity(granules, row));
+                double const capacity = heat_capacity(granules, row);
+                seen.heat[row] = capacity / dt * -std::expm1(-dt * transfer / capacity);
             }
         },
         laws_.heat);

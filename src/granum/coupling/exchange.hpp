@@ -7,9 +7,9 @@
 // follows from the change of the parcel's velocity and is given back in the next interval, like the torque of
 // rotational drag (`spin_impulse`), which the gas gets as a couple. Model B has drag and the other forces over the
 // voidage, and the hydrostatic buoyancy in the place of the pressure gradient and the stress. Heat. Q = k_h (T_g^{n+1}
-// - T_p^n), k_h = hA / (1 + dt hA/C), is used by the gas equation and then given to the parcel; radiation goes the same
-// way, explicitly, and the gas bears what the granules around do not. Every closure uses the real granule's diameter; a
-// parcel counts `count` times (physics.md 1.8). Sources: physics.md 2.1, 3.1, 3.3, 3.6, 3.7, 3.8.
+// - T_p^n), k_h = C/dt (1 - exp(-dt hA/C)), is used by the gas equation and then given to the parcel; radiation goes
+// the same way, explicitly, and the gas bears what the granules around do not. Every closure uses the real granule's
+// diameter; a parcel counts `count` times (physics.md 1.8). Sources: physics.md 2.1, 3.1, 3.3, 3.6, 3.7, 3.8.
 #pragma once
 
 #include "granum/coupling/histories.hpp"

@@ -314,10 +314,12 @@ std::vector<double> Engine::work() const
     return inside_->work();
 }
 
-std::vector<Contact> Engine::contacts() const
+std::vector<Contact> Engine::contacts(double gap) const
 {
     auto const& in = *inside_;
     auto const& frame = in.frame;
+    base::require(gap <= in.settings.sight, "contacts with gaps of {:.3g} m are asked for, but sight ends at {:.3g} m",
+                  gap, in.settings.sight);
     std::vector<Contact> out;
     auto const normal_force = [&](std::size_t pairing, double overlap, double radius, double mass, double speed) {
         law::contact::Approach<double> const at{
@@ -327,25 +329,30 @@ std::vector<Contact> Engine::contacts() const
     std::size_t const materials = in.rules.materials;
     for (std::size_t b = 0; b < in.pairs.blocks(); ++b)
         for (std::size_t lane = 0; lane < kernel::block; ++lane) {
-            if (!in.pairs.touching(b, lane)) continue;
+            bool const touching = in.pairs.touching(b, lane);
             auto const low = in.pairs.low(b, lane), high = in.pairs.high(b, lane);
+            if (!touching && (gap <= 0 || low >= frame.rows() || high >= frame.rows())) continue;
             auto const &one = frame.bodies[low], &other = frame.bodies[high];
             Vec3 const apart = in.apart(low, high);
             double const distance = norm(apart), overlap = one.radius + other.radius - distance;
+            if (!touching && overlap <= -gap) continue;
             double const speed = dot(Frame::vec(one.velocity) - Frame::vec(other.velocity), apart) / distance;
             double const reduced = one.radius * other.radius / (one.radius + other.radius);
+            Contact& contact = out.emplace_back(Contact{.low = frame.id[low],
+                                                        .high = frame.id[high],
+                                                        .wall = false,
+                                                        .overlap = touching ? overlap : std::min(overlap, 0.0),
+                                                        .normal_force = 0,
+                                                        .history = {},
+                                                        .radius = std::min(one.radius, other.radius),
+                                                        .reduced_radius = reduced,
+                                                        .elastic_force = 0,
+                                                        .rows = {low, high}});
+            if (!touching) continue;
             auto const force = normal_force(frame.material[low] * materials + frame.material[high], overlap, reduced,
                                             1 / (one.inverse_mass + other.inverse_mass), speed);
-            out.push_back({frame.id[low],
-                           frame.id[high],
-                           false,
-                           overlap,
-                           force.force,
-                           in.pairs.history(b, lane),
-                           std::min(one.radius, other.radius),
-                           reduced,
-                           force.elastic,
-                           {low, high}});
+            contact.normal_force = force.force, contact.elastic_force = force.elastic;
+            contact.history = in.pairs.history(b, lane);
         }
     for (std::size_t k = 0; k < in.walls.size(); ++k) {
         if (!in.walls.touches(k)) continue;
@@ -365,6 +372,11 @@ std::vector<Contact> Engine::contacts() const
                        force.elastic,
                        {row, row}});
     }
+    if (gap > 0)
+        in.walls.for_each_beside(frame, gap, [&](std::uint32_t row, std::uint32_t wall, double distance) {
+            double const radius = frame.radius(row);
+            out.push_back({frame.id[row], wall, true, radius - distance, 0, {}, radius, radius, 0, {row, row}});
+        });
     return out;
 }
 

@@ -40,6 +40,7 @@ struct Settings
     std::array<bool, 3> periodic{};
     math::Vec3 gravity{0, 0, -9.81};                  //!< m/s2
     double skin = 0;                                  //!< of the neighbour list, m; 0: chosen and adapted while running
+    double sight = 0;                                 //!< m: contacts(gap) knows what is at most so far apart
     double warn_overlap = 0.10, stop_overlap = 0.50;  //!< of a radius
     bool frozen = false;                              //!< granules stay where they are
     bool energy_ledger = true;                        //!< account for what contacts store and dissipate
@@ -73,7 +74,7 @@ struct Contact
 {
     Id low, high;  //!< high is the number of the wall for a wall contact
     bool wall;
-    double overlap;       //!< m
+    double overlap;       //!< m; negative where there is a gap
     double normal_force;  //!< N, at the present velocities
     History history;
     double radius;                      //!< of the smaller partner, m
@@ -121,8 +122,9 @@ class Engine
     //! Work of each owned row as rebalance() weighs it: one, and a half for each partner that it touches.
     std::vector<double> work() const;
 
-    //! All contacts that touch, as this rank sees them.
-    std::vector<Contact> contacts() const;
+    //! All contacts that touch, as this rank sees them. With a `gap` (m, at most Settings::sight) also the pairs, and
+    //! the walls beside granules, whose surfaces are closer than that: without force and history.
+    std::vector<Contact> contacts(double gap = 0) const;
     //! A number per row of all granules that this rank knows: those of owned rows as given, behind them what the owners
     //! of the others have given. Collective.
     std::vector<double> known_here(std::span<double const> owned) const;

@@ -78,7 +78,7 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
         width = std::clamp(width, least, most);
     }
     for (std::size_t d = 0; d < 3; ++d)
-        if (domain.periodic[d]) width = std::min(width, 0.24 * (domain.size()[d] - 4 * largest));
+        if (domain.periodic[d]) width = std::min(width, 0.24 * (domain.size()[d] - 4 * largest) - settings.sight);
     return width;
 }
 
@@ -133,11 +133,14 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     double const count = static_cast<double>(comm.sum(static_cast<long>(frame.owned)));
     double const mean = count > 0 ? comm.sum(sum) / count : 1;
     constexpr std::array names{"x", "y", "z"};
+    double const widest = 4 * largest + 5 * settings.sight;  // with room for a skin
     for (std::size_t d = 0; d < 3; ++d)
-        base::require(!domain.periodic[d] || domain.size()[d] > 4 * largest,
-                      "the periodic domain is {:.4g} m wide along {}, but must be wider than two diameters of the "
-                      "largest granule ({:.4g} m), so that no granule meets another from both sides",
-                      domain.size()[d], names[d], 4 * largest);
+        base::require(
+            !domain.periodic[d] || domain.size()[d] > widest,
+            "the periodic domain is {:.4g} m wide along {}, but must be wider than two diameters of the "
+            "largest granule and what they see besides ({:.4g} m), so that no granule meets another from both "
+            "sides",
+            domain.size()[d], names[d], widest);
     skin = next_skin(mean, largest);
     if (double const radius = settings.largest_radius > 0 ? settings.largest_radius : largest;
         rules.coarse_energy == 0 && radius > 0) {
@@ -172,7 +175,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     Vec3 const centre = 0.5 * (part.lower + part.upper);
     if (sort) {
         unsorted_rebuilds = 0;
-        auto const order = search.sorted_rows(frame, domain, centre, 2 * largest + skin);
+        auto const order = search.sorted_rows(frame, domain, centre, 2 * largest + skin + settings.sight);
         frame.give(granules);
         reorder(granules, order);
         std::vector<std::uint32_t> place(order.size());
@@ -185,12 +188,12 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         }
         frame.take(granules);
     }
-    double const reach = 2 * largest + skin;
+    double const wide = skin + settings.sight, reach = 2 * largest + wide;
     if (many) halo.fill(frame, reach);
 
     layers.make(frame, domain, halo.partition(), comm.rank(), reach);
     watch.strips = static_cast<long>(layers.strips());
-    search.find(frame, domain, centre, skin, near_part * skin, candidates, *kernel);
+    search.find(frame, domain, centre, wide, near_part * skin, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);
     auto const row_now = [&](std::uint32_t row) {
@@ -201,7 +204,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
     pairs.make(frame, layers, candidates, row_now, owned_before, rules, lost);
-    walls.make(frame, layers, skin, largest, row_now, rules, lost);
+    walls.make(frame, layers, wide, largest, row_now, rules, lost);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
             auto const low = (*index)(record.low);

@@ -5,6 +5,7 @@
 
 namespace granum::dem
 {
+using geometry::BodySearch;
 using geometry::most_touches;
 using geometry::Nearest;
 using kernel::block;
@@ -66,7 +67,7 @@ WallContacts::WallContacts(std::vector<geometry::Body> const& bodies, Domain con
 {
     bodies_.reserve(bodies.size());
     for (auto const& body : bodies) {
-        auto& made = bodies_.emplace_back(Moving{.search = geometry::BodySearch(body), .motions = body.motions});
+        auto& made = bodies_.emplace_back(Moving{.search = BodySearch(body), .motions = body.motions});
         made.in_place = geometry::rotations_in_place(body);
         made.box = geometry::bounds(body);
         made.origin = body.origin;
@@ -331,6 +332,29 @@ void WallContacts::measure(Layers::Range const& units, kernel::Rules const& rule
             put(velocity_, k, body.pose.velocity_at(x - lever * normal(k)));
             put(spin_, k, body.pose.spin);
         }
+    }
+}
+
+void WallContacts::for_each_beside(Frame const& frame, double gap,
+                                   std::function<void(std::uint32_t, std::uint32_t, double)> const& what) const
+{
+    BodySearch::Scratch scratch;
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+        Near const& near = near_[n];
+        Moving const& body = bodies_[near.body];
+        Vec3 const x = frame.position(near.row);
+        double const radius = frame.radius(near.row);
+        if (body.plane) {
+            double const distance = dot(x - body.plane->point, body.plane->normal);
+            if (distance >= radius && distance < radius + gap) what(near.row, near.body, distance);
+            continue;
+        }
+        std::size_t const end = n + 1 < near_.size() ? near_[n + 1].facet : facets_.size();
+        std::array<Nearest, most_touches> found;
+        std::size_t const count = body.search.touches(body.pose.to_body(x), radius + gap,
+                                                      {facets_.data() + near.facet, end - near.facet}, scratch, found);
+        for (std::size_t t = 0; t < count; ++t)
+            if (found[t].distance >= radius) what(near.row, near.body, found[t].distance);
     }
 }
 

@@ -61,6 +61,11 @@ class WallContacts
             if (touches(k)) what(row(k), partner(k), history(k));
     }
 
+    //! Calls what(row, body, distance of the centre in m) where a body is beside a granule without touching it, closer
+    //! to its surface than `gap` (m), which the list must reach.
+    void for_each_beside(Frame const& frame, double gap,
+                         std::function<void(std::uint32_t, std::uint32_t, double)> const& what) const;
+
     Vec3 force() const;  //!< of all bodies on this rank's granules at the last run, N
     //! Loads on all bodies at the last run, over all ranks. Collective.
     std::vector<WallLoad> loads(Frame const& frame, par::Communicator const& comm) const;

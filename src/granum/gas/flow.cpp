@@ -163,6 +163,7 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     in.refresh({&state.voidage});
     for (Index c = 0; c < in.gas_volume.size(); ++c) in.gas_volume[c] = state.voidage[c] * in.grid.open_volume[c];
     in.static_before = state.static_pressure;
+    in.sweeps = 0;
     SharedSources const shared = in.share(sources);
     if (in.closure) in.closure->mass_before = state.mass;
     in.predict(state, shared, dt);
@@ -190,6 +191,7 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     balance.pressure_iterations = total.pressure_iterations;
     balance.pressure_converged = total.pressure_converged;
     if (state.turbulent) in.carry_eddies(state, sources, dt);
+    balance.sweeps = in.sweeps;
     in.refresh({&state.vapour, &state.tracer, &state.enthalpy, &state.temperature, &state.vapour_fraction,
                 &state.tracer_fraction, &state.density});
     in.check(state);

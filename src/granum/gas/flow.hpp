@@ -73,6 +73,7 @@ struct Balance
     double wall_heat = 0;      //!< J that the gas gave to walls
     double pressure_work = 0;  //!< J that a change of the pressure gave to the gas
     int pressure_iterations = 0;
+    int sweeps = 0;  //!< over the nodes of one field, of momentum, vapour and heat
     bool pressure_converged = true;
 };
 

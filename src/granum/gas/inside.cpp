@@ -19,6 +19,7 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
       area(grid.open_area),
       face_volume(grid.make_face_field(1)),
       solved(grid.make_face_field()),
+      bounding(grid.make_face_field()),
       per_gap(grid.make_face_field()),
       low_share(grid.make_face_field()),
       coupled{grid.make_face_field(), grid.make_face_field(), grid.make_face_field()},
@@ -62,6 +63,8 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
     base::require(!settings.walls.empty(), "gas: no wall is described");
     find_openings();
     find_faces();
+    bounding = solved;
+    for (auto const& face : inlets) bounding[face.d][face.face] = 1;
     find_walls();
     make_closure();
 }

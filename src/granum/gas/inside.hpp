@@ -111,6 +111,7 @@ struct Solver::Inside
     FaceField area;                           //!< open to the gas, m2: ends without inlet or outlet are closed
     FaceField face_volume;                    //!< of the momentum control volumes, m3; 1 where nothing is solved for
     FaceField solved;                         //!< 1 for faces between two open cells
+    FaceField bounding;                       //!< 1 for these and for inlets: what both sides bound a scalar
     FaceField per_gap;                        //!< 1 over the distance of the cells' centres, 1/m
     FaceField low_share;                      //!< weight of the lower cell in the value at a face
     std::array<FaceField, 3> coupled, reach;  //!< of links: 1 where both faces are there; viscous area over distance, m
@@ -141,6 +142,7 @@ struct Solver::Inside
     FaceField middle_flux;                   //!< mass flux in the middle of the step, kg/s
     std::array<Field, 3> friction, dragged;  //!< of walls in a cell on a component, kg/s; times the walls' velocity, N
     FaceField begun;                         //!< velocities at the beginning of the step
+    int sweeps = 0;                          //!< done in this step
     Rows rows, halves;                       //!< of the step; of the correction of convection
     Field change, half;                      //!< the correction; 1/2 everywhere
     FaceField link_flux;                     //!< mass flux through the links of one velocity component, kg/s

@@ -112,7 +112,8 @@ void Limit::clear()
 }
 
 void Limit::scale(grid::Grid const& grid, std::vector<Run> const& nodes, Field const& x, Field const& earlier,
-                  Field const& room, std::array<Field const*, 3> coupled, double least, double most)
+                  Field const& room, std::array<Field const*, 3> coupled, std::array<Field const*, 3> bounding,
+                  double least, double most)
 {
     // What is no node neither bends nor limits.
     for (auto& bends : bend_) std::fill(bends.begin(), bends.end(), 0.0);
@@ -124,7 +125,7 @@ void Limit::scale(grid::Grid const& grid, std::vector<Run> const& nodes, Field c
     find_ranges(0, x.size(), x.data(), earlier.data(), high_.data(), low_.data());
     for (auto const& run : nodes)
         find_shares(run.first, run.end, grid.strides, x.data(), high_.data(), low_.data(), room.data(),
-                    {coupled[0]->data(), coupled[1]->data(), coupled[2]->data()},
+                    {bounding[0]->data(), bounding[1]->data(), bounding[2]->data()},
                     {added[0].data(), added[1].data(), added[2].data()},
                     {bend_[0].data(), bend_[1].data(), bend_[2].data()}, least, most, up_.data(), down_.data());
     grid::refresh(grid, {&up_, &down_});

@@ -27,10 +27,12 @@ struct Limit
 
     //! Scales `added` so that no node of `nodes` gets beyond its neighbours before the step and in the upwind solution
     //! `x`, and beyond [least, most] unless the upwind solution is. `earlier`: before the step; `room`: what a node
-    //! takes up per unit of x; `coupled`: 1 for links that there are. Ghosts of x, earlier and coupled are filled;
-    //! those of `added` afterwards. Collective.
+    //! takes up per unit of x; `coupled`: 1 for links that there are; `bounding`: 1 for these and for those to what
+    //! enters, which x and earlier hold outside. Ghosts of x, earlier and links are filled; those of `added`
+    //! afterwards. Collective.
     void scale(grid::Grid const& grid, std::vector<Run> const& nodes, Field const& x, Field const& earlier,
-               Field const& room, std::array<Field const*, 3> coupled, double least, double most);
+               Field const& room, std::array<Field const*, 3> coupled, std::array<Field const*, 3> bounding,
+               double least, double most);
 
   private:
     Field high_, low_, up_, down_;

@@ -365,7 +365,7 @@ void Solver::Inside::predict_component(std::size_t d, State& state, SharedSource
             {{&link_flux[0], &link_flux[1], &link_flux[2]}, {&coupled[d][0], &coupled[d][1], &coupled[d][2]}, share}, x,
             before_step);
         limit.scale(grid, faces[d], x, before_step, mobility[d], {&coupled[d][0], &coupled[d][1], &coupled[d][2]},
-                    -endless, endless);
+                    {&coupled[d][0], &coupled[d][1], &coupled[d][2]}, -endless, endless);
     }
     // Convection is known now; viscosity is taken at what comes of it.
     constexpr std::array convect{convect_x, convect_y, convect_z}, pass{pass_x, pass_y, pass_z};

@@ -70,8 +70,9 @@ void Solver::Inside::find_openings()
     for (std::size_t k = 0; k < settings.inlets.size(); ++k) add(settings.inlets[k].at, k, true);
     for (std::size_t k = 0; k < settings.outlets.size(); ++k)
         if (!grid.periodic[settings.outlets[k].at.direction]) add(settings.outlets[k].at, k, false);
-    base::require(settings.inlets.empty() || !outlet_areas.empty() || settings.compressibility == Compressibility::full,
-                  "gas enters but has no outlet");
+    base::require(
+        settings.inlets.empty() || !outlet_areas.empty() || settings.compressibility != Compressibility::constant,
+        "gas of constant density enters but has no outlet");
     refresh({&area[0], &area[1], &area[2]});
 }
 

@@ -131,6 +131,9 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
                  {&low_share[0], &low_share[1], &low_share[2]}},
                 x, earlier);
         std::array<double, 2> seen{range.most, -range.least};
+        for (std::size_t k = 0; k < settings.inlets.size(); ++k)
+            if (settings.inlets[k].mass_flow > 0)
+                seen = {std::max(seen[0], what.at_inlets[k]), std::max(seen[1], -what.at_inlets[k])};
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) seen = {std::max(seen[0], x[c]), std::max(seen[1], -x[c])};
         comm.max(seen);
@@ -138,7 +141,8 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
         Field& room = rows.partial;
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) room[c] = what.capacity[c] / dt;
-        limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]}, range.least, range.most);
+        limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]},
+                    {&bounding[0], &bounding[1], &bounding[2]}, range.least, range.most);
     }
 
     // What passed each face at the solution; contents change by that and by nothing else.

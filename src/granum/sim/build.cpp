@@ -28,6 +28,11 @@ std::vector<geometry::Body> walls(Case const& data)
 {
     auto const& chamber = data.chamber;
     std::vector<geometry::Body> out;
+    if (chamber.shape == geometry::Chamber::Shape::solids) {
+        out = data.bodies;
+        out.insert(out.end(), data.walls.begin(), data.walls.end());
+        return out;
+    }
     auto const faces = [&](std::size_t axis) {
         constexpr std::array<std::array<char const*, 2>, 3> names{
             {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
@@ -57,6 +62,7 @@ std::vector<geometry::Body> walls(Case const& data)
         }
         out.push_back(std::move(wall));
     }
+    out.insert(out.end(), data.bodies.begin(), data.bodies.end());
     out.insert(out.end(), data.walls.begin(), data.walls.end());
     return out;
 }
@@ -71,7 +77,7 @@ double collision_speed(Case const& data)
         double const density = data.gas.density ? *data.gas.density
                                                 : material::density(data.gas.pressure, data.gas.inlet.temperature,
                                                                     material::fraction(data.gas.inlet.humidity));
-        fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
+        fastest = std::max(fastest, flow / (density * data.chamber.area(data.chamber.bottom())));
     }
     return std::max(fastest, fastest_meeting(data) + fastest_wall(data));
 }
@@ -143,6 +149,8 @@ dem::Settings granule_settings(Case const& data)
     settings.gravity = data.gravity;
     settings.frozen = data.granules.frozen;
     settings.largest_radius = largest_radius(data);
+    // Granules may grow by a tenth before their gas is cut short.
+    if (data.contact.films()) settings.sight = 1.1 * data.contact.film_lens * settings.largest_radius;
     return settings;
 }
 
@@ -215,12 +223,26 @@ coupling::Laws exchange_laws(Case const& data)
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
 {
-    std::vector<coupling::Conductor> conductors;
-    for (auto const& material : data.contact.materials)
-        conductors.push_back({.conductivity = material.heat_conductivity,
-                              .youngs_modulus = material.real_youngs_modulus,
-                              .poisson_ratio = material.poisson_ratio});
-    return {named<law::conduction::All>(data.contact.conduction), std::move(conductors), comm};
+    auto const& contact = data.contact;
+    coupling::Paths paths{.contact = named<law::conduction::All>(contact.conduction),
+                          .film = named<law::film::All>(contact.film),
+                          .lens = contact.film_lens,
+                          .shortest = contact.film_shortest,
+                          .gas = data.gas.conductivity,
+                          .collisions = contact.collisions};
+    for (auto const& material : contact.materials)
+        paths.materials.push_back({.conductivity = material.heat_conductivity,
+                                   .youngs_modulus = material.real_youngs_modulus,
+                                   .poisson_ratio = material.poisson_ratio,
+                                   .softened_modulus = material.youngs_modulus,
+                                   .rigid = material.rigid});
+    for (auto const& body : walls(data)) {
+        auto const& described = data.gas.walls;
+        auto const own =
+            std::find_if(described.begin(), described.end(), [&](auto const& w) { return w.of == body.name; });
+        paths.walls.push_back(own != described.end() ? own->temperature : described.front().temperature);
+    }
+    return {std::move(paths), comm};
 }
 
 spray::Liquid spray_liquid(Case const& data)

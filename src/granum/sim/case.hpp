@@ -48,6 +48,10 @@ struct ContactCase
     std::string tangential = "mindlin";
     std::string rolling = "epsd";
     std::string conduction = "none";
+    std::string film = "none";       //!< heat through the gas between surfaces that touch or nearly do
+    double film_lens = 0.2;          //!< thickness of that gas over the radius of the larger granule
+    double film_shortest = 27.5e-9;  //!< way through it that is never undercut, m
+    bool collisions = false;         //!< contacts are collisions: heat passes for as long as real ones last
     //! s; of `linear`, in place of stiffnesses: of two of the smallest granules; of hard spheres: a collision sooner
     //! than this after another of the same granule is elastic.
     std::optional<double> contact_time;
@@ -59,6 +63,7 @@ struct ContactCase
 
     bool hard() const { return engine == "hard"; }
     bool conducts() const { return conduction != "none"; }
+    bool films() const { return film != "none"; }
 };
 
 //! One granule with its place: from [[granule]] tables, a CSV file or another run.
@@ -70,6 +75,7 @@ struct GranuleCase
     double count = 1;     //!< real granules in the parcel
     std::uint64_t id = 0;
     std::uint32_t material = 0;
+    double temperature = 0;  //!< K at the start; 0: that of the bed
 };
 
 //! A box in which granules appear.
@@ -352,6 +358,8 @@ struct Case
     std::array<bool, 3> periodic{};             //!< of a box
     std::array<std::array<bool, 2>, 3> open{};  //!< [axis][low, high]: faces without a wall
     bool discharge = false;                     //!< granules that leave through open faces are counted, not an error
+    std::vector<geometry::Body> bodies;         //!< walls of [[apparatus.solid]] and [[internal]]
+    double resolution = 0;                      //!< to which walls of joined bodies are drawn, m
     std::vector<geometry::Body> walls;          //!< [[wall]], besides those of the chamber
     Vec3 gravity{0, 0, -math::standard_gravity};
     std::uint32_t seed = 1;

@@ -89,6 +89,36 @@ void read_conductor(io::CaseFile& file, ContactCase const& contact, std::string 
     }
 }
 
+//! Heat through contacts and through the gas beside them.
+void read_heat_paths(io::CaseFile& file, ContactCase& contact)
+{
+    contact.conduction = file.name("contact.conduction", contact.conduction, "law, of heat through contacts",
+                                   laws_for("contact.conduction"), "a law of heat conduction through contacts");
+    contact.film = file.name("contact.film", contact.film, "law, of heat through the gas between surfaces",
+                             laws_for("contact.film"), "a law of heat through the gas between granules");
+    for (auto const* key : {"contact.conduction", "contact.film"})
+        if (file.has(key) && !file.says(key, "none") && !file.has("gas"))
+            file.mistake(key, "goes with gas: granules alone have no temperature", {"leave it out, or add [gas]"});
+    auto const only_with = [&](bool chosen, char const* key, char const* what) {
+        if (!chosen && file.has(key)) file.mistake(key, "has no meaning here", {what});
+        file.know(key);
+        return chosen;
+    };
+    char const* const choose_film = "choose contact.film = \"rong-horio\" or leave the key out";
+    if (only_with(contact.films(), "contact.film_lens", choose_film))
+        contact.film_lens = file.quantity("contact.film_lens", Dimension::one, contact.film_lens,
+                                          "thickness of the gas that conducts, over the radius of the larger granule",
+                                          {.low = 1e-3, .high = 0.5});
+    if (only_with(contact.films(), "contact.film_shortest", choose_film))
+        contact.film_shortest = file.quantity("contact.film_shortest", Dimension::length, contact.film_shortest,
+                                              "way through the gas that is never undercut", io::positive);
+    bool const hertz = contact.normal != "linear";
+    if (only_with(contact.conducts() && hertz, "contact.collisions",
+                  "choose contact.conduction = \"hertz\" and a Hertzian normal law, or leave the key out"))
+        contact.collisions = file.boolean("contact.collisions", false,
+                                          "contacts are collisions: heat passes for as long as real ones last");
+}
+
 //! The laws and the numbers that only some of them read.
 void read_laws(io::CaseFile& file, ContactCase& contact)
 {
@@ -101,9 +131,9 @@ void read_laws(io::CaseFile& file, ContactCase& contact)
                           "of the slip where surfaces stick", io::zero_to_one);
     else
         belongs_to(file, "contact.tangential_restitution", "contact.engine", contact.engine, "hard");
-    for (auto const* key :
-         {"contact.normal", "contact.tangential", "contact.rolling", "contact.lever_radius", "contact.keep_attraction",
-          "contact.reference_speed", "contact.tangential_ratio", "contact.rigid_wall", "contact.conduction"})
+    for (auto const* key : {"contact.normal", "contact.tangential", "contact.rolling", "contact.lever_radius",
+                            "contact.keep_attraction", "contact.reference_speed", "contact.tangential_ratio",
+                            "contact.rigid_wall", "contact.conduction", "contact.film"})
         for_soft(file, contact, key);
     if (contact.hard()) {
         contact.contact_time =
@@ -117,11 +147,7 @@ void read_laws(io::CaseFile& file, ContactCase& contact)
                                    "a tangential contact law");
     contact.rolling =
         file.name("contact.rolling", contact.rolling, "law", laws_for("contact.rolling"), "a rolling contact law");
-    contact.conduction = file.name("contact.conduction", contact.conduction, "law, of heat through contacts",
-                                   laws_for("contact.conduction"), "a law of heat conduction through contacts");
-    if (contact.conducts() && !file.has("gas"))
-        file.mistake("contact.conduction", "goes with gas: granules alone have no temperature",
-                     {"leave it out, or add [gas]"});
+    read_heat_paths(file, contact);
     if (for_linear(file, contact, "contact.contact_time"))
         contact.contact_time =
             file.optional_quantity("contact.contact_time", Dimension::time,
@@ -200,6 +226,9 @@ void read_contact(io::CaseFile& file, Case& data)
         wall.poisson_ratio = number(file, "contact.wall_poisson_ratio", granule.poisson_ratio, "of the walls", poisson);
     }
     read_conductor(file, contact, "contact.", granule);
+    wall.heat_conductivity = granule.heat_conductivity;
+    wall.real_youngs_modulus = granule.real_youngs_modulus;
+    read_conductor(file, contact, "contact.wall_", wall);
     contact.materials = {granule, wall};
     for (auto const& name : own_names) {
         auto const key = "material." + name + ".";
@@ -229,6 +258,10 @@ void read_contact(io::CaseFile& file, Case& data)
         if (a >= 1) contact.pairs[a][1] = on_wall;
     }
     read_pairs(file, contact);
+    if (contact.collisions && std::any_of(contact.materials.begin(), contact.materials.end(),
+                                          [](auto const& m) { return m.real_youngs_modulus == 0 && !m.rigid; }))
+        file.mistake("contact.collisions", "needs the real modulus of every material",
+                     {"add contact.real_youngs_modulus"});
     if (contact.conducts() && std::all_of(contact.materials.begin(), contact.materials.end(),
                                           [](auto const& m) { return m.heat_conductivity == 0; }))
         file.mistake("contact.heat_conductivity", "is missing: contacts are to pass heat",

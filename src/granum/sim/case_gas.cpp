@@ -218,7 +218,7 @@ void read_cells(io::CaseFile& file, Case& data)
         if (std::isfinite(fine.lower + fine.upper + fine.size)) gas.fine.push_back(fine);
     }
     if (!file.has("apparatus") || file.wrong("apparatus.shape") || file.wrong("apparatus.profile") ||
-        file.wrong("apparatus.size"))
+        file.wrong("apparatus.size") || !data.chamber.known())
         return;
     auto const low = data.chamber.lower(), high = data.chamber.upper(), extent = high - low;
     if (!cells.empty()) {

@@ -114,6 +114,11 @@ void read_tables(io::CaseFile& file, Case& data)
             file.optional_quantity(key + "density", Dimension::density, "instead of that of [granules]", io::positive)
                 .value_or(0);
         one.material = read_material(file, data.contact, key + "material", 0, "it is made of");
+        one.temperature = file.optional_quantity(key + "temperature", Dimension::temperature,
+                                                 "at the start, instead of that of the bed", {.low = 200, .high = 3000})
+                              .value_or(0);
+        if (one.temperature > 0 && !file.has("gas"))
+            file.mistake(key + "temperature", "goes with gas: granules alone have no temperature");
         granules.given.push_back(one);
     }
 }

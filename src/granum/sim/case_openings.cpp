@@ -1,5 +1,6 @@
 // Reads [[inlet]], [[outlet]] and [[gas.wall]]: where gas enters and leaves, and what it meets.
 #include "granum/base/error.hpp"
+#include "granum/geometry/region.hpp"
 #include "granum/io/csv.hpp"
 #include "granum/sim/case_sections.hpp"
 
@@ -88,6 +89,8 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
     auto const profile = file.name(key + "profile", "uniform", "of what enters over the opening",
                                    {"uniform", "parabolic", "rings", "holes"}, "a profile");
     out.parabolic = profile == "parabolic";
+    if (out.parabolic && !out.round && !out.rectangle && data.chamber.shape == geometry::Chamber::Shape::solids)
+        file.mistake(key + "profile", "needs the diameter, or lower and upper, in an apparatus of solids");
     auto const rings = file.table(key + "rings", 2, Dimension::length,
                                   "outer diameter of each ring and a length that says how much enters per area");
     if (profile == "rings") {
@@ -130,7 +133,7 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
         } catch (base::Error const& error) {
             file.mistake(key + "hole_file", error.what());
         }
-    } else if (pitch && hole) {
+    } else if (pitch && hole && data.chamber.known()) {
         if (*hole >= *pitch) file.mistake(key + "hole_diameter", "is not below the pitch");
         Vec3 lower = data.chamber.lower(), upper = data.chamber.upper();
         if (out.rectangle) lower = out.rectangle->lower, upper = out.rectangle->upper;
@@ -142,10 +145,11 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
             double const away = std::hypot(one.x - out.centre[e], one.y - out.centre[f]);
             return away + one.radius > reach || away - one.radius < out.inner;
         });
-    } else {
+    } else if (!pitch || !hole) {
         file.mistake(key + "profile", "needs the holes", {"hole_file, or pitch and hole_diameter"});
     }
-    if (out.holes.empty() && !file.wrong(key + "hole_file") && !file.wrong(key + "profile") && pitch && hole)
+    if (data.chamber.known() && out.holes.empty() && !file.wrong(key + "hole_file") && !file.wrong(key + "profile") &&
+        pitch && hole)
         file.mistake(key + "pitch", "leaves no hole in the opening");
 }
 
@@ -210,11 +214,9 @@ void read_openings(io::CaseFile& file, Case& data)
         unique(key, outlet.at.name);
         gas.outlets.push_back(std::move(outlet));
     }
-    bool const full = gas.compressibility == "full";
-    if (inlets > 0 && outlets == 0 && !full)
-        file.mistake(
-            "inlet", "lets gas in, but no [[outlet]] lets it out",
-            {"add [[outlet]] with end = \"top\"", "only gas.compressibility = \"full\" can fill a closed vessel"});
+    if (inlets > 0 && outlets == 0 && gas.compressibility == "constant")
+        file.mistake("inlet", "lets gas in, but no [[outlet]] lets it out",
+                     {"add [[outlet]] with end = \"top\"", "gas of constant density cannot fill a closed vessel"});
     auto const overlap = [](OpeningCase const& a, OpeningCase const& b) {
         return a.direction == b.direction && a.upper == b.upper && !a.rectangle && !b.rectangle && !a.round && !b.round;
     };
@@ -254,10 +256,15 @@ void read_gas_walls(io::CaseFile& file, Case& data)
         file.quantity("gas.surroundings", Dimension::temperature, 293.15, "temperature outside", io::positive);
     gas.walls = {everywhere};
     std::vector<std::string> known{"all"};
-    if (data.chamber.shape == geometry::Chamber::Shape::box) {
+    using Shape = geometry::Chamber::Shape;
+    auto const& region = data.chamber.region;
+    // Of a box and of a body of revolution the chamber itself is the first solid.
+    for (std::size_t k = data.chamber.shape == Shape::solids ? 0 : 1; region && k < region->solids(); ++k)
+        known.push_back(region->name(k));
+    if (data.chamber.shape == Shape::box) {
         for (std::size_t end = 0; end < 6; ++end)
             if (!data.periodic[end / 2]) known.push_back(end_names()[end]);
-    } else {
+    } else if (data.chamber.shape == Shape::revolution) {
         known.insert(known.end(), {"chamber", "bottom", "top"});
     }
     std::set<std::string> met;

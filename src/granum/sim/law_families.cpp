@@ -52,7 +52,7 @@ std::vector<LawFamily> const& law_families()
         family<law::contact::TangentialLaws>("contact-tangential", "contact.tangential", "contact force across it"),
         family<law::contact::RollingLaws>("contact-rolling", "contact.rolling", "resistance to rolling"),
         family<law::conduction::All>("contact-conduction", "contact.conduction", "heat between granules that touch"),
-        family<law::film::All>("film", "", "heat through the gas between granules that nearly touch"),
+        family<law::film::All>("film", "contact.film", "heat through the gas between granules that nearly touch"),
         family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
         family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
         family<product::All>("porosity", "product.porosity_model",

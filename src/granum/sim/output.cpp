@@ -244,7 +244,7 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
         events_ = std::make_unique<io::EventsWriter>(folder_ + "/events.h5", event_columns);
         event_log_ = std::make_unique<io::RowLog>(folder_ + "/checkpoint/events.rows", event_columns.size());
     }
-    io::write_surface(folder_ + "/vtk/walls.vtp", io::chamber_surface(simulation.data().chamber));
+    io::write_surface(folder_ + "/vtk/walls.vtp", chamber_walls(simulation.data()));
     io::Collection(folder_ + "/walls.pvd").add(0, "vtk/walls.vtp");
     if (saved)
         go_on(*saved);

@@ -120,7 +120,7 @@ void add_granule(particle::Store& granules, GranuleCase const& one)
     if (granules.groups.process) {
         granules.core_mass[row] = granules.mass[row];
         granules.core_diameter[row] = one.diameter;
-        granules.temperature[row] = math::zero_celsius;
+        granules.temperature[row] = one.temperature;  // 0 until the start gives it that of the bed
     }
 }
 

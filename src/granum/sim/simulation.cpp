@@ -2,6 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
+#include "granum/gas/traffic.hpp"
 #include "granum/grid/build.hpp"
 #include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
@@ -176,8 +177,14 @@ void Simulation::gas_step(double dt)
         auto const scope = stopwatch_.time(base::Stage::gas);
         last_ = solver_->advance(gas_, sources_, voidage, dt);
         unconverged_ += !last_.pressure_converged;
+        double const cells = static_cast<double>(grid_.n[0]) * grid_.n[1] * grid_.n[2];
+        gas_work_.cell_steps += cells;
+        gas_work_.bytes += cells * gas::bytes_per_cell(last_);
+        gas_work_.iterations += cells * last_.pressure_iterations;
+        gas_work_.sweeps += cells * last_.sweeps;
         in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
         in_[2] += last_.enthalpy_in + last_.pressure_work, out_[2] += last_.enthalpy_out + last_.wall_heat;
+        heat_.wall_gas += last_.wall_heat;
     }
     {
         auto const scope = stopwatch_.time(base::Stage::exchange);
@@ -187,8 +194,12 @@ void Simulation::gas_step(double dt)
             std::vector<double> capacity(granules_.owned);
             for (std::size_t row = 0; row < granules_.owned; ++row)
                 capacity[row] = exchange_->heat_capacity(granules_, row);
-            conduction_->pass(*engine_, granules_, capacity, dt);
+            auto const passed = conduction_->pass(*engine_, granules_, capacity, dt);
+            out_[2] += passed.to_walls();
+            heat_.contacts += passed.contacts, heat_.film += passed.film;
+            heat_.wall_contacts += passed.wall_contacts, heat_.wall_film += passed.wall_film;
         }
+        for (double const gained : seen_.radiation) heat_.radiation -= dt * gained;
     }
     if (case_.spray.present) engine_->changed(granules_);
 }

@@ -38,6 +38,15 @@ struct SprayTotals
     long hits = 0;
 };
 
+//! Heat that passed since the start beside that between gas and granules, over all ranks, J.
+struct HeatTotals
+{
+    double contacts = 0, film = 0;            //!< between granules, either way
+    double wall_contacts = 0, wall_film = 0;  //!< from granules to walls, net
+    double wall_gas = 0;                      //!< from the gas to walls, net
+    double radiation = 0;                     //!< from granules to what is around them, which the gas bears, net
+};
+
 //! The outside of the process as it is now, over all ranks.
 struct Readings
 {
@@ -52,6 +61,15 @@ struct Readings
     double coldest = 0, hottest = 0;  //!< K over gas and granules
     double water_on_granules = 0;     //!< kg
     double kinetic_energy = 0;        //!< J of the granules
+};
+
+//! What the gas of this rank took since the program began.
+struct GasWork
+{
+    double cell_steps = 0;  //!< steps of its cells
+    double bytes = 0;       //!< that they asked of memory, see gas/traffic.hpp
+    double iterations = 0;  //!< of the pressure, times cells
+    double sweeps = 0;      //!< times cells
 };
 
 class Simulation
@@ -84,12 +102,14 @@ class Simulation
     Balance const& steady() const { return balance_; }
     Ledgers const& ledgers() const { return ledgers_; }
     SprayTotals totals() const;  //!< Collective.
+    HeatTotals heat() const;     //!< Collective.
     Readings readings() const;   //!< Collective.
     Traffic const& traffic() const { return traffic_; }
     std::vector<Feed> const& feeds() const { return feeds_; }
     base::Stopwatch& stopwatch() { return stopwatch_; }
     double local_drying_potential(double temperature, double vapour_fraction) const;
     long unconverged_steps() const { return unconverged_; }  //!< gas steps whose pressure missed its tolerance
+    GasWork const& gas_work() const { return gas_work_; }
     long clamped_cells() const { return exchange_ ? exchange_->clamped_cells() : 0; }
 
     //! All that the next step depends on, this rank's part: what a checkpoint holds.
@@ -169,7 +189,9 @@ class Simulation
     //! Sums since the start on this rank: solids, water, energy that came in and went out.
     std::array<double, 3> in_{}, out_{};
     SprayTotals mine_;
+    HeatTotals heat_;
     gas::Balance last_;  //!< boundary flows of the last gas step
+    GasWork gas_work_;
     std::vector<Feed> feeds_;
     std::vector<GranuleCase> poured_;      //!< until they have been poured, before the run
     std::unique_ptr<WallRoom> wall_room_;  //!< for the feeds

@@ -67,8 +67,9 @@ void Simulation::start_gas()
                        case_.start.temperature_offset;
 
     for (std::size_t row = 0; row < granules_.owned; ++row) {
-        granules_.temperature[row] = bed;
-        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (bed - math::zero_celsius);
+        double& own = granules_.temperature[row];
+        if (!(own > 0)) own = bed;
+        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (own - math::zero_celsius);
     }
     Vec3 velocity = gas.initial_velocity;
     if (flows && velocity == Vec3{}) {
@@ -98,7 +99,7 @@ void Simulation::start_deposits()
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
     double flow = 0;
     for (auto const& inlet : solver_->settings().inlets) flow += inlet.mass_flow;
-    double const speed = flow / (density * case_.chamber.area(0));
+    double const speed = flow / (density * case_.chamber.area(case_.chamber.bottom()));
     double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
     double const sherwood = std::visit(
         [&](auto const& law) {
@@ -114,7 +115,7 @@ void Simulation::start_deposits()
 
     // One deposit of the median droplet; the others dry in times proportional to the square of their diameter.
     double const median = spray.droplet_median;
-    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(0));
+    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(case_.chamber.bottom()));
     auto const& nozzle = nozzles_.front();
     Vec3 const surface = nozzle.position + std::max(0.02, nozzle.position.z - 1.5 * settled) * nozzle.direction;
     law::impact::Impact const impact{spray.density, spray.viscosity, spray.surface_tension,

@@ -158,8 +158,8 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
             around.give(place, given);
             left -= h > 0.999999 * left ? left : h;
 
-            if (!chamber.inside(droplet.position)) {
-                lose(droplet.position.z >= chamber.height() ? outcome.overspray : outcome.walls, droplet, liquid);
+            if (!chamber.inside(droplet.position) || chamber.parted(place, droplet.position)) {
+                lose(droplet.position.z >= chamber.top() ? outcome.overspray : outcome.walls, droplet, liquid);
                 gone = true;
             } else if (droplet.water < dust * droplet.solute) {
                 lose(outcome.overspray, droplet, liquid);  // dried in flight: dust

@@ -134,7 +134,7 @@ TEST(Heat, of_a_parcel_is_that_of_its_real_granules_one_by_one)
     double const transfer = count * (2 + 0.6 * std::sqrt(re) * std::cbrt(prandtl)) * k * math::pi * d;
     double const capacity = count * 1445 * math::pi / 6 * d * d * d * Bed::heat_capacity;
     EXPECT_NEAR(scene.bed.seen.temperature[0], t, 1e-10);
-    EXPECT_NEAR(scene.bed.seen.heat[0], transfer / (1 + dt * transfer / capacity), 1e-9 * transfer);
+    EXPECT_NEAR(scene.bed.seen.heat[0], capacity / dt * -std::expm1(-dt * transfer / capacity), 1e-9 * transfer);
 }
 
 TEST(Exchange, hands_what_the_engine_did_differently_to_the_gas_in_the_next_step)

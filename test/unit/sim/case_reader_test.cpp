@@ -73,7 +73,7 @@ TEST(CaseReader, wants_all_that_heat_through_contacts_needs_and_nothing_else)
     auto const read = read_text(text("conduction = \"hertz\"\nheat_conductivity = \"0.3 W/m/K\"\n"));
     auto const& materials = read.data.contact.materials;
     EXPECT_EQ(materials[0].heat_conductivity, 0.3);
-    EXPECT_EQ(materials[1].heat_conductivity, 0);
+    EXPECT_EQ(materials[1].heat_conductivity, 0.3) << "walls as granules where they say nothing";
     EXPECT_EQ(materials[2].heat_conductivity, 15);
     auto const has = [](std::string const& what, char const* part) { return what.find(part) != std::string::npos; };
     EXPECT_TRUE(std::any_of(read.warnings.begin(), read.warnings.end(),
@@ -83,6 +83,36 @@ TEST(CaseReader, wants_all_that_heat_through_contacts_needs_and_nothing_else)
     EXPECT_TRUE(has(mistakes_of(text("heat_conductivity = \"0.3 W/m/K\"\n")), "has no meaning"));
     EXPECT_TRUE(has(mistakes_of(box + "[granules]\nmass = \"1 g\"\n" + gas + "[contact]\nconduction = \"lens\"\n"),
                     "contact.heat_conductivity"));
+}
+
+TEST(CaseReader, gives_granules_and_walls_the_paths_of_heat_that_a_case_tells)
+{
+    auto const text = [](std::string const& contact, std::string const& granule = "") {
+        return box + "[granules]\ndiameter = \"2 mm\"\ndensity = \"1500 kg/m3\"\n" + gas +
+               "velocity = \"0.5 m/s\"\nhumidity = \"8 g/kg\"\n[contact]\n" + contact +
+               "[[granule]]\nposition = [\"5 "
+               "mm\", \"5 mm\", \"5 mm\"]\n" +
+               granule;
+    };
+    auto const data =
+        read_text(text("conduction = \"hertz\"\nheat_conductivity = \"0.3 W/m/K\"\nwall_heat_conductivity "
+                       "= \"15 W/m/K\"\nreal_youngs_modulus = \"5 GPa\"\ncollisions = true\nfilm = "
+                       "\"rong-horio\"\nfilm_lens = 0.1\n",
+                       "temperature = \"400 K\"\n"))
+            .data;
+    EXPECT_EQ(data.contact.materials[1].heat_conductivity, 15);
+    EXPECT_EQ(data.contact.materials[1].real_youngs_modulus, 5e9);
+    EXPECT_TRUE(data.contact.collisions && data.contact.films());
+    EXPECT_NEAR(granule_settings(data).sight, 1.1 * 0.1 * 1e-3, 1e-12);
+    EXPECT_EQ(data.granules.given.at(0).temperature, 400);
+    auto const refused = [&](std::string const& contact, char const* why) {
+        auto const what = mistakes_of(text(contact));
+        EXPECT_NE(what.find(why), std::string::npos) << contact << what;
+    };
+    refused("film_lens = 0.1\n", "contact.film_lens");
+    refused("collisions = true\n", "contact.collisions");
+    refused("conduction = \"hertz\"\nheat_conductivity = \"0.3 W/m/K\"\ncollisions = true\n", "needs the real modulus");
+    refused("film = \"none-such\"\n", "rong-horio");
 }
 
 TEST(CaseReader, refuses_the_parameter_of_a_contact_law_that_is_not_chosen)
