@@ -18,30 +18,6 @@ namespace
 {
 constexpr double largest_ratio = 1e5;  // of eddy viscosity to viscosity
 
-constexpr double finest = 0.5;  // of the rate of strain or decay, for the integration of sources within a step
-constexpr double most_pieces = 32;
-
-//! Sources and sinks of a step: those with which one implicit step ends where many small ones do that follow k and its
-//! rate while the strain is held. `viscosity` gives the eddy viscosity at what they have become.
-template <class Law, class Viscosity>
-law::turbulence::Budget over_step(Law const& model, law::turbulence::Local at, double dt, Viscosity&& viscosity)
-{
-    double const energy = at.energy, rate = at.rate;
-    double const fastest = std::max(std::sqrt(at.strain2()), model.budget(at, 0).rate_lost);
-    double const pieces = std::clamp(std::ceil(dt * fastest / finest), 1.0, most_pieces), h = dt / pieces;
-    law::turbulence::Budget sum;
-    for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
-        auto const now = model.budget(at, viscosity(at));
-        at.rate = (at.rate + h * now.rate_made) / (1 + h * now.rate_lost);
-        at.energy = (at.energy + h * now.made) / (1 + h * model.decay(at.energy, at.rate));
-        sum.made += now.made / pieces;
-        sum.rate_made += now.rate_made / pieces;
-    }
-    sum.lost = std::max(((energy + dt * sum.made) / at.energy - 1) / dt, 0.0);
-    sum.rate_lost = std::max(((rate + dt * sum.rate_made) / at.rate - 1) / dt, 0.0);
-    return sum;
-}
-
 //! Share of the eddy viscosity that granules leave, 0 among dense ones.
 double left_by_granules(Turbulence const& set, double voidage)
 {
@@ -62,13 +38,14 @@ void Solver::Inside::make_closure()
     it.wall_viscosity.assign(wall_pieces.size(), 0.0);
     it.wall_heat.assign(wall_pieces.size(), 1.0);
     if (!turbulence::transports(model)) return;
-    for (Field* field : {&it.made, &it.lost, &it.rate_made, &it.rate_lost, &it.spread_energy, &it.spread_rate})
+    for (Field* field :
+         {&it.made, &it.lost, &it.rate_made, &it.rate_lost, &it.granular, &it.spread_energy, &it.spread_rate})
         *field = grid.make_field();
     it.fixed_rate = grid.make_field(-1);
     if (std::holds_alternative<turbulence::KOmegaSst>(model)) it.wall_distance = wall_distance();
 }
 
-void Solver::Inside::close(State const& state, double dt)
+void Solver::Inside::close(State const& state)
 {
     Closure& it = *closure;
     auto const mean = mean_velocity(state);
@@ -100,13 +77,11 @@ void Solver::Inside::close(State const& state, double dt)
                         }
                     }
                 }
-                double const left = left_by_granules(set, state.voidage[c]);
-                auto const eddy_viscosity = [&](turbulence::Local const& there) {
-                    return std::min(model(there), largest_ratio * there.viscosity) * left;
-                };
-                it.eddy[c] = state.density[c] * eddy_viscosity(at);
+                double const eddy =
+                    std::min(model(at), largest_ratio * at.viscosity) * left_by_granules(set, state.voidage[c]);
+                it.eddy[c] = state.density[c] * eddy;
                 if constexpr (Law::transports) {
-                    auto const budget = over_step(model, at, dt, eddy_viscosity);
+                    auto const budget = model.budget(at, eddy);
                     it.made[c] = budget.made, it.lost[c] = budget.lost;
                     it.rate_made[c] = budget.rate_made, it.rate_lost[c] = budget.rate_lost;
                     auto const spread = model.spread(at);
@@ -187,10 +162,8 @@ void Solver::Inside::close_at_walls(State const& state, std::array<Field, 3> con
                     }
                 }
                 if constexpr (Law::transports)
-                    if (areas > 0) {
+                    if (areas > 0)
                         it.fixed_rate[c] = rate / areas, it.made[c] = made / areas, it.eddy[c] = mixed / areas;
-                        it.lost[c] = model.decay(state.energy_of_eddies[c], it.fixed_rate[c]);
-                    }
             }
         },
         set.model);
@@ -208,7 +181,7 @@ Field Solver::eddy_viscosity(State const& state) const
     if (turbulence::is_laminar(in.settings.turbulence.model)) return {};
     for (Index c = 0; c < in.viscous.size(); ++c)
         in.viscous[c] = in.grid.open(c) ? in.viscosity(state.temperature[c]) : 0;
-    in.close(state, 0);
+    in.close(state);
     Field out = in.closure->eddy;
     for (Index c = 0; c < out.size(); ++c)
         if (in.grid.open(c)) out[c] /= state.density[c];

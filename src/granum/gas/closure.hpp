@@ -19,6 +19,7 @@ struct Closure
     std::vector<double> wall_viscosity, wall_heat;  //!< by wall piece: Pa s; of conduction, over that of still gas
     grid::Field mass_before;                        //!< at the beginning of the step, kg
     grid::Field made, lost, rate_made, rate_lost;   //!< of the two equations, per mass (law::turbulence::Budget)
+    grid::Field granular;                           //!< of `lost`, what granules take, 1/s
     grid::Field fixed_rate;                         //!< of cells at walls; negative elsewhere
     grid::Field spread_energy, spread_rate;         //!< law::turbulence::Spread
 };

@@ -2,8 +2,8 @@
 // in storage, flux and diffusion.
 //
 // Sinks are implicit and sources explicit, so that implicit upwind convection keeps both positive at any step; a floor
-// takes up rounding. Sources and sinks of a step come from the closure, which has followed both through it. In cells at
-// walls the rate is that of the wall law.
+// takes up rounding. First the rate is moved on, with the k of the beginning, then k with the rate that came of it. In
+// cells at walls the rate is that of the wall law.
 #include "granum/gas/inside.hpp"
 
 #include "granum/base/error.hpp"
@@ -102,7 +102,7 @@ void Solver::Inside::add_granules(State const& state, Sources const& sources, do
                 double const made = granules.wake * drag * slip2 / mass;
                 double const lost = 2 * drag / mass * (relaxation / (lagrangian + relaxation));
                 it.made[c] += made;
-                it.lost[c] += lost;
+                it.granular[c] = lost;
                 double const gain = model.rate_with(made - lost * k, k, rate, granules.rate);
                 (gain > 0 ? it.rate_made[c] : it.rate_lost[c]) += gain > 0 ? gain : -gain / rate;
             }
@@ -127,6 +127,7 @@ void Solver::Inside::carry_eddies(State& state, Sources const& sources, double d
         energies.push_back(inlet_energy(state, n));
         lengths.push_back(inlet_length(n));
     }
+    std::fill(it.granular.begin(), it.granular.end(), 0.0);
     if (set.granules.on) add_granules(state, sources, dt);
     Field& k = state.energy_of_eddies;
     Field& rate = state.rate_of_eddies;
@@ -160,6 +161,7 @@ void Solver::Inside::carry_eddies(State& state, Sources const& sources, double d
             for (Index c = run.first; c < run.end; ++c) {
                 rate[c] = it.fixed_rate[c] >= 0 ? it.fixed_rate[c] : flow.content[c] / state.mass[c];
                 rate[c] = std::max(rate[c], least_rate);
+                it.lost[c] = it.granular[c] + model.decay(k[c], rate[c]);
             }
 
         begin(k, it.made, it.lost);

@@ -195,7 +195,7 @@ struct Solver::Inside
     void carry_scalars(State& state, Sources const& sources, double dt, Balance& balance);
     //! @{ closure.cpp: from the state to `viscous` and what else the closure holds for a step. Collective.
     void make_closure();
-    void close(State const& state, double dt);
+    void close(State const& state);
     void close_at_walls(State const& state, std::array<Field, 3> const& mean);
     //! @}
     //! @{ eddies.cpp: what a two-equation model transports. Collective.

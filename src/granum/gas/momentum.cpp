@@ -258,7 +258,7 @@ void Solver::Inside::set_inlet_velocities(State& state) const
 void Solver::Inside::predict(State& state, SharedSources const& sources, double dt)
 {
     for (Index c = 0; c < viscous.size(); ++c) viscous[c] = grid.open(c) ? viscosity(state.temperature[c]) : 0;
-    if (closure) close(state, dt);
+    if (closure) close(state);
 
     double const ahead = state.last_step > 0 ? 0.5 * std::min(dt / state.last_step, fastest_extrapolation) : 0;
     for (std::size_t d = 0; d < 3; ++d)

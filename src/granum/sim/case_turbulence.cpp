@@ -13,7 +13,6 @@ namespace
 void read_constants(io::CaseFile& file, TurbulenceCase& turbulence)
 {
     if (!file.has("gas.turbulence_constants")) return;
-    file.section("gas.turbulence_constants");
     auto const read = [&](char const* name, double& constant) {
         auto const key = std::string("gas.turbulence_constants.") + name;
         if (file.has(key))

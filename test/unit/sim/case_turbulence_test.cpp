@@ -55,8 +55,11 @@ TEST(CaseTurbulence, takes_the_constants_of_the_model_and_of_the_wall)
 TEST(CaseTurbulence, refuses_constants_that_the_model_has_not)
 {
     EXPECT_EQ(mistakes_of("turbulence = \"k-epsilon\"\nturbulence_constants = { c_1 = 1.5 }\n"), "");
-    EXPECT_NE(mistakes_of("turbulence = \"wale\"\nturbulence_constants = { c_1 = 1.5 }\n")
-                  .find("gas.turbulence_constants.c_1 = 1.5"),
+    EXPECT_NE(
+        mistakes_of("turbulence = \"wale\"\nturbulence_constants = { c_1 = 1.5 }\n").find("[gas.turbulence_constants]"),
+        std::string::npos);
+    EXPECT_NE(mistakes_of("turbulence = \"k-epsilon\"\nturbulence_constants = { c_1 = 1.5, c_9 = 1 }\n")
+                  .find("gas.turbulence_constants.c_9"),
               std::string::npos);
     EXPECT_NE(mistakes_of("turbulence = \"k-omega\"\n").find("k-omega-sst"), std::string::npos);
 }
