@@ -174,7 +174,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
         }
     }
     if (simulation.has_gas()) {
-        auto const heat = simulation.heat();
+        auto const& heat = performance.heat;
         out["heat"] = {{"between_granules_by_contact_J", heat.contacts},
                        {"between_granules_by_gas_J", heat.film},
                        {"granules_to_walls_by_contact_J", heat.wall_contacts},
