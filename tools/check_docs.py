@@ -32,6 +32,8 @@ PREFIXES = {
     },
     "case_output.cpp": {"read_output": ["output.box."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
+    "case_solid.cpp": {"Reader": ["apparatus.solid."]},
+    "case_solids.cpp": {"read_name": ["apparatus.solid.", "internal."], "read_solids": ["apparatus.solid."], "read_internals": ["internal."]},
     "case_walls.cpp": {"WallReader": ["wall."]},
 }
 CALLS = r'(?<!derived\()(?<!section = )\b(?:(?:key|prefix) \+ |(?:length|point|direction|moves|law)\()"((?:flow_reference\.)?[a-z_]+)"'

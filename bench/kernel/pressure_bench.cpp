@@ -5,6 +5,7 @@
 //
 // bench_pressure [REPETITIONS], or on several ranks tools/mpi 2 bench_pressure [REPETITIONS].
 #include "granum/solve/pressure.hpp"
+#include "granum/solve/traffic.hpp"
 #include "scene/bed_system.hpp"
 #include "scene/cells.hpp"
 
@@ -19,16 +20,6 @@ using solve::Method;
 
 namespace
 {
-// Each array once per loop, stores without what they fetch first, neighbours from a cache. Doubles are 8 bytes; the
-// multigrid's numbers are 4, and a sweep passes over the cells of one colour but over the links of all.
-constexpr double half_sweep = 12 + 2 + 2 + 2 + 2;  // links; right side, inverse, x of either colour
-constexpr double finest_level =
-    (2 + 2 + 2) + 5 * half_sweep + (half_sweep + 4) + (2 + 4);  // start, residual, transfers
-constexpr double other_levels = ((2 + 2 + 2) + 11 * half_sweep + (half_sweep + 4) + (2 + 4)) / 7;  // eight to one
-constexpr double gradients = (4 + 16) + (24 + 8 + 8 + 8) + (48 + 4) + 8;  // direction, product, step, residual times z
-constexpr double bytes_per_iteration = finest_level + other_levels + gradients;
-constexpr double bytes_per_set_up = (32 + 8 + 16) + 24 + (32 + 32) + (8 + 4) + (32 + 16) + (16 + 8) + 16;
-
 struct Size
 {
     char const* name;
@@ -103,11 +94,11 @@ void measure(Size const& size, par::Communicator const& comm, int repetitions)
                    candidate.iterations, middle, candidate.times.front(), candidate.times.back());
     }
     auto const& own = candidates.front();
-    double const bytes = bytes_per_set_up + own.iterations * bytes_per_iteration;
+    double const bytes = solve::traffic::per_solve + own.iterations * solve::traffic::per_iteration;
     double const seconds = own.times[own.times.size() / 2] * 1e-6 * comm.size();  // of a rank, per cell
     fmt::print(
         "{:22} multigrid  {:.0f} bytes per cell and iteration, {:.0f} per solve: {:.1f} GB/s a rank; triad {:.1f}\n",
-        size.name, bytes_per_iteration, bytes, 1e-9 * bytes / seconds, median(rates));
+        size.name, solve::traffic::per_iteration, bytes, 1e-9 * bytes / seconds, median(rates));
 }
 }
 

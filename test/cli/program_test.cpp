@@ -61,6 +61,7 @@ std::vector<Wrong> wrong_cases()
 {
     std::vector<Wrong> all;
     for (auto const& entry : fs::directory_iterator(GRANUM_SOURCE_DIR "/test/cli/wrong")) {
+        if (entry.path().extension() != ".toml") continue;
         Wrong one{entry.path(), 0, {}};
         std::ifstream in(entry.path());
         std::string first, word;
@@ -77,12 +78,15 @@ std::vector<Wrong> wrong_cases()
 TEST_F(Program, refuses_each_wrong_case_in_one_screen_and_leaves_nothing)
 {
     auto const cases = wrong_cases();
-    EXPECT_EQ(cases.size(), 24u);
+    EXPECT_EQ(cases.size(), 33u);
     for (auto const& wrong : cases)
         for (auto const* verb : {"check ", "run "}) {
+            auto const start = std::chrono::steady_clock::now();
             auto const [status, text] = call(std::string(verb) + "'" + wrong.path.string() + "'");
             auto const place = wrong.path.string() + ":" + std::to_string(wrong.line) + ": ";
             EXPECT_EQ(status, 2) << verb << wrong.path;
+            EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10)
+                << wrong.path;
             EXPECT_TRUE(text.starts_with(place)) << "expected " << place << " got\n" << text;
             EXPECT_EQ(text.find(".toml:", place.size()), std::string::npos) << "one cause, one message:\n" << text;
             for (auto const& word : wrong.words)
@@ -90,6 +94,24 @@ TEST_F(Program, refuses_each_wrong_case_in_one_screen_and_leaves_nothing)
             EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24);
             EXPECT_TRUE(left_nothing()) << verb << wrong.path << " left something behind";
         }
+}
+
+TEST_F(Program, refuses_a_body_of_ten_million_facets_before_it_reads_them)
+{
+    std::ofstream(folder_ / "case.toml") << "[apparatus]\nshape = \"solids\"\n[[apparatus.solid]]\nshape = \"stl\"\n"
+                                            "file = \"fine.stl\"\n[granules]\ndiameter = \"2 mm\"\n"
+                                            "density = \"2500 kg/m3\"\nmass = \"5 g\"\n[time]\nduration = \"1 s\"\n";
+    constexpr std::uint32_t facets = 10'000'000;
+    std::string head(84, ' ');
+    for (std::size_t k = 0; k < 4; ++k) head[80 + k] = static_cast<char>(facets >> (8 * k) & 0xff);
+    std::ofstream(folder_ / "fine.stl", std::ios::binary) << head;
+    fs::resize_file(folder_ / "fine.stl", 84 + std::uintmax_t{50} * facets);
+    auto const start = std::chrono::steady_clock::now();
+    auto const [status, text] = call("run case.toml");
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
+    EXPECT_EQ(status, 2);
+    for (auto const* word : {"case.toml:5: apparatus.solid[0].file = \"fine.stl\"", "10000000", "2000000 facets"})
+        EXPECT_NE(text.find(word), std::string::npos) << word << " in\n" << text;
 }
 
 TEST_F(Program, suggests_the_near_name_of_a_missing_case)
@@ -113,7 +135,8 @@ TEST_F(Program, suggests_the_near_verb)
 
 TEST_F(Program, writes_templates_that_check)
 {
-    for (auto const* name : {"lab-gf3", "pilot-x8", "rectangular-bed", "pile", "hopper", "drum", "cooling-gas"}) {
+    for (auto const* name :
+         {"lab-gf3", "pilot-x8", "rectangular-bed", "pile", "hopper", "drum", "cooling-gas", "wurster"}) {
         auto const printed = call(std::string("new ") + name);
         EXPECT_EQ(printed.status, 0);
         EXPECT_LE(std::count(printed.text.begin(), printed.text.end(), '\n'), 60) << name;

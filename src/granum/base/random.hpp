@@ -32,7 +32,8 @@ enum class Purpose : std::uint32_t
     impact,
     deposit,
     test,
-    agitation
+    agitation,
+    dispersion
 };
 
 //! A stream of numbers for one (seed, purpose, id, step).

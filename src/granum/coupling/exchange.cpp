@@ -43,6 +43,7 @@ Exchange::Exchange(Laws laws, gas::Solver const& solver, Grid const& grid, par::
       adds_mass_(!does_nothing(laws_.virtual_mass) || laws_.history),
       turns_(!does_nothing(laws_.torque)),
       lifts_(!does_nothing(laws_.shear_lift) || !does_nothing(laws_.spin_lift)),
+      disperses_(!does_nothing(laws_.dispersion)),
       histories_(histories)
 {
     base::require(!laws_.history || histories_, "coupling: the history force has no histories");
@@ -227,8 +228,8 @@ void Exchange::find_added_mass(particle::Store const& granules, std::size_t row,
     seen.added_mass[row] += share * c * histories_->newest();
 }
 
-void Exchange::share(particle::Store const& granules, gas::State const& state, double dt, Seen& seen,
-                     gas::Sources& sources)
+void Exchange::share(particle::Store& granules, gas::State const& state, double dt, Seen& seen, gas::Sources& sources,
+                     std::uint32_t step)
 {
     auto velocity = solver_.cell_velocity(state);
     Field temperature = state.temperature, vapour = state.vapour_fraction, density = state.density;
@@ -256,6 +257,7 @@ void Exchange::share(particle::Store const& granules, gas::State const& state, d
         seen.voidage[row] = model_b_ ? 1 - seen.solids_fraction[row] : 1;
     }
 
+    if (disperses_) find_fluctuations(granules, state, dt, step, seen);
     bool const radiates = laws_.emissivity > 0;
     if (lifts_ || turns_ || radiates || laws_.polydisperse) {
         if (more_.empty()) more_ = mapping_.make_bundle();
@@ -318,7 +320,9 @@ void Exchange::share(particle::Store const& granules, gas::State const& state, d
     std::fill(to.begin(), to.end(), std::array<double, 8>{});
     if (!more_.empty()) std::fill(more_.begin(), more_.end(), std::array<double, 8>{});
     for (std::size_t const row : order) {
-        Vec3 const momentum = seen.drag[row] * granules.velocity[row];
+        // Drag towards u + u' is drag towards u of a granule at v - u'.
+        Vec3 const own = disperses_ ? granules.velocity[row] - seen.fluctuation[row] : granules.velocity[row];
+        Vec3 const momentum = seen.drag[row] * own;
         Vec3 force = debt(granules, row) / -dt;
         if (lifts_) force -= seen.lift[row];
         mapping_.spread(stencils[row],
@@ -373,7 +377,9 @@ double Exchange::deliver(particle::Store& granules, gas::State const& state, dou
     Vec3 const gravity = solver_.settings().gravity;
     for (std::size_t const row : mapping_.order()) {
         auto const [u, v, w, sx, sy, sz, t, none] = mapping_.gather(stencils[row], cells_);
-        Vec3 const gas{u, v, w}, slope{sx, sy, sz};
+        Vec3 const slope{sx, sy, sz};
+        Vec3 gas{u, v, w};
+        if (disperses_) gas += seen.fluctuation[row];
         double const d = granules.diameter[row], volume = granules.count[row] * math::pi / 6 * d * d * d;
         double const added = adds_mass_ ? seen.added_mass[row] : 0;
         granules.gas_velocity[row] = gas;

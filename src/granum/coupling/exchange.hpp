@@ -15,6 +15,7 @@
 #include "granum/coupling/histories.hpp"
 #include "granum/coupling/mapping.hpp"
 #include "granum/gas/flow.hpp"
+#include "granum/law/dispersion/all.hpp"
 #include "granum/law/drag/all.hpp"
 #include "granum/law/force/all.hpp"
 #include "granum/law/heat/all.hpp"
@@ -36,6 +37,8 @@ struct Laws
     bool polydisperse = false;  //!< drag of each size in a mixture
     bool filtered = false;      //!< drag of cells that do not see clusters (Radl and Sundaresan)
     double emissivity = 0;      //!< of granules; 0: no radiation
+    law::dispersion::Any dispersion = law::dispersion::NoDispersion{};
+    std::uint32_t seed = 1;  //!< of the fluctuations that granules see
 };
 
 //! What granules are like.
@@ -59,6 +62,7 @@ struct Seen
     std::vector<double> turning;                   //!< rotational drag of the parcel, N m s; empty without
     std::vector<Vec3> history;                     //!< explicit part of the history force, N; empty without
     std::vector<double> added_mass;                //!< of virtual mass and history, kg; empty without
+    std::vector<Vec3> fluctuation;                 //!< of the gas, in `velocity` too, m/s; empty without
 };
 
 class Exchange
@@ -73,8 +77,10 @@ class Exchange
     Field voidage(particle::Store const& granules);
 
     //! What each granule sees now, and all sources of drag and heat for a gas step of `dt`. Collective.
-    //! Adds to `sources`, which the caller has cleared and finishes.
-    void share(particle::Store const& granules, gas::State const& state, double dt, Seen& seen, gas::Sources& sources);
+    //! Adds to `sources`, which the caller has cleared and finishes. `step` numbers the gas step for the fluctuations,
+    //! of which the granules remember theirs.
+    void share(particle::Store& granules, gas::State const& state, double dt, Seen& seen, gas::Sources& sources,
+               std::uint32_t step = 0);
 
     //! Gives the granules what the gas step brought: heat now, velocity and forces for the coming granule steps.
     //! Returns the relative mismatch between what the gas lost and the granules got (momentum). Collective.
@@ -89,6 +95,7 @@ class Exchange
     //! Columns that the laws need.
     bool adds_mass() const { return adds_mass_; }
     bool turns() const { return turns_; }
+    bool disperses() const { return disperses_; }
 
     //! J/K of a parcel with its liquid.
     double heat_capacity(particle::Store const& granules, std::size_t row) const;
@@ -96,6 +103,8 @@ class Exchange
   private:
     void find_drag(particle::Store const& granules, std::size_t row, double dt, Seen& seen, double sauter) const;
     void find_heat(particle::Store const& granules, double dt, Seen& seen) const;
+    void find_fluctuations(particle::Store& granules, gas::State const& state, double dt, std::uint32_t step,
+                           Seen& seen);
     void find_lift(particle::Store const& granules, std::size_t row, Seen& seen) const;
     void find_added_mass(particle::Store const& granules, std::size_t row, Seen& seen);
     double viscosity(double temperature) const;
@@ -108,7 +117,7 @@ class Exchange
     par::Communicator const& comm_;
     Mapping& mapping_;
     Solids solids_;
-    bool model_b_, adds_mass_, turns_, lifts_;
+    bool model_b_, adds_mass_, turns_, lifts_, disperses_;
     Histories* histories_;
     long clamped_ = 0;
     Bundle cells_, more_;  // scratch

@@ -18,25 +18,30 @@ constexpr int most_trials = 4;
 
 std::vector<std::pair<std::string, Field*>> State::fields()
 {
-    return {{"mass", &mass},
-            {"vapour", &vapour},
-            {"tracer", &tracer},
-            {"enthalpy", &enthalpy},
-            {"velocity_x", &velocity[0]},
-            {"velocity_y", &velocity[1]},
-            {"velocity_z", &velocity[2]},
-            {"mass_flux_x", &mass_flux[0]},
-            {"mass_flux_y", &mass_flux[1]},
-            {"mass_flux_z", &mass_flux[2]},
-            {"earlier_flux_x", &earlier_flux[0]},
-            {"earlier_flux_y", &earlier_flux[1]},
-            {"earlier_flux_z", &earlier_flux[2]},
-            {"pressure", &pressure},
-            {"voidage", &voidage},
-            {"temperature", &temperature},
-            {"vapour_fraction", &vapour_fraction},
-            {"tracer_fraction", &tracer_fraction},
-            {"density", &density}};
+    std::vector<std::pair<std::string, Field*>> out{{"mass", &mass},
+                                                    {"vapour", &vapour},
+                                                    {"tracer", &tracer},
+                                                    {"enthalpy", &enthalpy},
+                                                    {"velocity_x", &velocity[0]},
+                                                    {"velocity_y", &velocity[1]},
+                                                    {"velocity_z", &velocity[2]},
+                                                    {"mass_flux_x", &mass_flux[0]},
+                                                    {"mass_flux_y", &mass_flux[1]},
+                                                    {"mass_flux_z", &mass_flux[2]},
+                                                    {"earlier_flux_x", &earlier_flux[0]},
+                                                    {"earlier_flux_y", &earlier_flux[1]},
+                                                    {"earlier_flux_z", &earlier_flux[2]},
+                                                    {"pressure", &pressure},
+                                                    {"voidage", &voidage},
+                                                    {"temperature", &temperature},
+                                                    {"vapour_fraction", &vapour_fraction},
+                                                    {"tracer_fraction", &tracer_fraction},
+                                                    {"density", &density}};
+    if (turbulent) {
+        out.emplace_back("energy_of_eddies", &energy_of_eddies);
+        out.emplace_back("rate_of_eddies", &rate_of_eddies);
+    }
+    return out;
 }
 
 void Sources::clear(grid::Grid const& grid)
@@ -144,6 +149,7 @@ State Solver::start(Field const& voidage, double temperature, double vapour_frac
     in.set_inlet_velocities(state);
     for (std::size_t d = 0; d < 3; ++d) in.refresh({&state.velocity[d], &state.mass_flux[d]});
     state.earlier_flux = state.mass_flux;
+    if (in.closure) in.start_eddies(state);
     return state;
 }
 
@@ -157,7 +163,9 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     in.refresh({&state.voidage});
     for (Index c = 0; c < in.gas_volume.size(); ++c) in.gas_volume[c] = state.voidage[c] * in.grid.open_volume[c];
     in.static_before = state.static_pressure;
+    in.sweeps = 0;
     SharedSources const shared = in.share(sources);
+    if (in.closure) in.closure->mass_before = state.mass;
     in.predict(state, shared, dt);
     in.expected_temperature = state.temperature;
     in.expected_vapour = state.vapour_fraction;
@@ -182,6 +190,8 @@ Balance Solver::advance(State& state, Sources const& sources, Field const& voida
     }
     balance.pressure_iterations = total.pressure_iterations;
     balance.pressure_converged = total.pressure_converged;
+    if (state.turbulent) in.carry_eddies(state, sources, dt);
+    balance.sweeps = in.sweeps;
     in.refresh({&state.vapour, &state.tracer, &state.enthalpy, &state.temperature, &state.vapour_fraction,
                 &state.tracer_fraction, &state.density});
     in.check(state);

@@ -42,6 +42,9 @@ struct State
     Field voidage;                    //!< of the open volume
     Field temperature, vapour_fraction, tracer_fraction, density;  //!< derived: K, kg/kg, kg/kg, kg/m3
     Range temperatures{}, vapour_fractions{}, tracer_fractions{};  //!< seen so far
+    bool turbulent = false;  //!< whether the model transports what follows, which is empty otherwise
+    Field energy_of_eddies;  //!< k per mass, m2/s2
+    Field rate_of_eddies;    //!< epsilon, m2/s3, or omega, 1/s
 
     //! All fields by name.
     std::vector<std::pair<std::string, Field*>> fields();
@@ -70,7 +73,15 @@ struct Balance
     double wall_heat = 0;      //!< J that the gas gave to walls
     double pressure_work = 0;  //!< J that a change of the pressure gave to the gas
     int pressure_iterations = 0;
+    int sweeps = 0;  //!< over the nodes of one field, of momentum, vapour and heat
     bool pressure_converged = true;
+};
+
+//! Turbulence of the gas in the cells, ghosts filled.
+struct Eddies
+{
+    Field energy, dissipation;      //!< k, m2/s2; epsilon, m2/s3
+    std::array<Field, 3> gradient;  //!< of k, m/s2
 };
 
 //! Weights of the lower and upper face of each cell by direction: one half, but all on the other where one is a
@@ -109,6 +120,11 @@ class Solver
     std::array<Field, 3> cell_vorticity(State const& state) const;
     //! Acceleration Du/Dt of the gas in the cells in the last step, m/s2, ghosts filled. Collective.
     std::array<Field, 3> cell_acceleration(State const& state) const;
+
+    //! Of the gas as it is now, m2/s; empty where the model is laminar. Collective.
+    Field eddy_viscosity(State const& state) const;
+    //! Only of a model that transports turbulence. Collective.
+    Eddies eddies(State const& state) const;
 
     //! Temperature that the implicit heat term of the last step was taken at, K: the gas received
     //! heat_value - heat_coefficient (T - 273.15). Differs from State::temperature by what convection of second order

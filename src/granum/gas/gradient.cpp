@@ -3,17 +3,20 @@
 
 namespace granum::gas
 {
-std::array<Field, 3> Solver::cell_velocity(State const& state) const
+std::array<Field, 3> Solver::Inside::mean_velocity(State const& state) const
 {
-    Inside const& in = *inside_;
-    std::array<Field, 3> means{in.grid.make_field(), in.grid.make_field(), in.grid.make_field()};
+    std::array<Field, 3> means{grid.make_field(), grid.make_field(), grid.make_field()};
     for (std::size_t d = 0; d < 3; ++d) {
         auto const& u = state.velocity[d];
-        for (auto const& run : in.cells)
-            for (Index c = run.first; c < run.end; ++c) means[d][c] = 0.5 * (u[c] + u[in.next(c, d)]);
+        for (auto const& run : cells)
+            for (Index c = run.first; c < run.end; ++c) means[d][c] = 0.5 * (u[c] + u[next(c, d)]);
     }
-    in.refresh({&means[0], &means[1], &means[2]});
+    refresh({&means[0], &means[1], &means[2]});
     return means;
+}
+std::array<Field, 3> Solver::cell_velocity(State const& state) const
+{
+    return inside_->mean_velocity(state);
 }
 
 std::array<Field, 3> Solver::cell_pressure_gradient(State const& state) const
@@ -71,6 +74,15 @@ Gradient Solver::Inside::velocity_gradient(State const& state, std::array<Field,
                 slope[d][piece.e][piece.cell] += sign * (wall.velocity[d] - mean[d][piece.cell]) / (2 * piece.distance);
     }
     return slope;
+}
+
+double Solver::Inside::slope_of(Field const& x, std::size_t e, Index c, double width) const
+{
+    auto const at_face = [&](Index face) {
+        double const low = low_share[e][face];
+        return solved[e][face] > 0 ? low * x[before(face, e)] + (1 - low) * x[face] : x[c];
+    };
+    return repeats_itself(e) ? 0 : (at_face(next(c, e)) - at_face(c)) / width;
 }
 
 std::array<Field, 3> Solver::cell_vorticity(State const& state) const

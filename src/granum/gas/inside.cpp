@@ -66,6 +66,7 @@ Solver::Inside::Inside(Settings given, grid::Grid const& cells_of_rank, par::Com
     bounding = solved;
     for (auto const& face : inlets) bounding[face.d][face.face] = 1;
     find_walls();
+    make_closure();
 }
 
 double Solver::Inside::viscosity(double temperature) const

@@ -4,6 +4,7 @@
 // node and the next one below it in a direction, and stands at the index of the upper one.
 #pragma once
 
+#include "granum/gas/closure.hpp"
 #include "granum/gas/flow.hpp"
 #include "granum/gas/limit.hpp"
 #include "granum/grid/halo.hpp"
@@ -99,9 +100,6 @@ struct WallExchange
     double conductance, outside;  //!< W/K, degC
 };
 
-//! Slopes du_d/dx_e of the cells, [d][e], 1/s.
-using Gradient = std::array<std::array<Field, 3>, 3>;
-
 struct Solver::Inside
 {
     Inside(Settings given, grid::Grid const& cells, par::Communicator const& ranks);
@@ -144,11 +142,13 @@ struct Solver::Inside
     FaceField middle_flux;                   //!< mass flux in the middle of the step, kg/s
     std::array<Field, 3> friction, dragged;  //!< of walls in a cell on a component, kg/s; times the walls' velocity, N
     FaceField begun;                         //!< velocities at the beginning of the step
+    int sweeps = 0;                          //!< done in this step
     Rows rows, halves;                       //!< of the step; of the correction of convection
     Field change, half;                      //!< the correction; 1/2 everywhere
     FaceField link_flux;                     //!< mass flux through the links of one velocity component, kg/s
     Limit limit;
     Carried carried;
+    std::unique_ptr<Closure> closure;  //!< none where the gas is laminar and Newtonian
 
     Index next(Index at, std::size_t d) const { return grid.next(at, d); }
     Index before(Index at, std::size_t d) const { return grid.before(at, d); }
@@ -164,6 +164,7 @@ struct Solver::Inside
     void find_walls();
 
     SharedSources share(Sources const& sources) const;
+    std::array<Field, 3> mean_velocity(State const& state) const;  //!< of the cells, ghosts filled. Collective.
     //! `mean`: cell_velocity of the state. Without ghosts.
     Gradient velocity_gradient(State const& state, std::array<Field, 3> const& mean) const;
     //! Adds the force on the gas of owned cells, N, that torques make.
@@ -192,6 +193,21 @@ struct Solver::Inside
     void add_walls(State const& state, Carried& heat);
     void add_pressure_work(State const& state, double dt, Carried& heat) const;
     void carry_scalars(State& state, Sources const& sources, double dt, Balance& balance);
+    //! @{ closure.cpp: from the state to `viscous` and what else the closure holds for a step. Collective.
+    void make_closure();
+    void close(State const& state);
+    void close_at_walls(State const& state, std::array<Field, 3> const& mean);
+    //! @}
+    //! @{ eddies.cpp: what a two-equation model transports. Collective.
+    void start_eddies(State& state) const;
+    void carry_eddies(State& state, Sources const& sources, double dt);
+    void add_granules(State const& state, Sources const& sources, double dt);
+    double inlet_energy(State const& state, std::size_t number) const;
+    double inlet_length(std::size_t number) const;
+    //! @}
+    double slope_of(Field const& x, std::size_t e, Index c, double width) const;
+    void add_eddies(Field& property, double per) const;  //!< voidage times eddy viscosity over `per`, Pa s
+    Field wall_distance() const;  //!< m, of the cells' centres from walls that hold the gas; ghosts filled. Collective.
     void derive(State& state) const;
     //! How far the mass of a cell is off that of its equation of state, the largest share. Collective.
     double off_state(State const& state) const;

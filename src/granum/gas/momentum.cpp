@@ -258,6 +258,7 @@ void Solver::Inside::set_inlet_velocities(State& state) const
 void Solver::Inside::predict(State& state, SharedSources const& sources, double dt)
 {
     for (Index c = 0; c < viscous.size(); ++c) viscous[c] = grid.open(c) ? viscosity(state.temperature[c]) : 0;
+    if (closure) close(state);
 
     double const ahead = state.last_step > 0 ? 0.5 * std::min(dt / state.last_step, fastest_extrapolation) : 0;
     for (std::size_t d = 0; d < 3; ++d)
@@ -277,10 +278,12 @@ void Solver::Inside::predict(State& state, SharedSources const& sources, double 
         std::fill(friction[d].begin(), friction[d].end(), 0.0);
         std::fill(dragged[d].begin(), dragged[d].end(), 0.0);
     }
-    for (auto const& piece : wall_pieces) {
+    for (std::size_t n = 0; n < wall_pieces.size(); ++n) {
+        auto const& piece = wall_pieces[n];
         auto const& wall = settings.walls[piece.wall];
         if (wall.slip) continue;
-        double const holds = viscous[piece.cell] * piece.area / piece.distance;
+        double const viscosity_here = closure ? closure->wall_viscosity[n] : viscous[piece.cell];
+        double const holds = viscosity_here * piece.area / piece.distance;
         for (std::size_t d = 0; d < 3; ++d) {
             if (d == piece.e) continue;
             friction[d][piece.cell] += holds;

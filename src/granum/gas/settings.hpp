@@ -1,6 +1,9 @@
 // What a run says of its gas: properties, where it enters and leaves, what its walls are like.
 #pragma once
 
+#include "granum/law/turbulence/all.hpp"
+#include "granum/law/turbulence/wall.hpp"
+#include "granum/law/viscosity/all.hpp"
 #include "granum/math/vec3.hpp"
 #include "granum/solve/pressure.hpp"
 
@@ -40,10 +43,12 @@ struct Opening
 
 struct Inlet
 {
-    double mass_flow = 0;         //!< kg/s of moist gas
-    double temperature = 293.15;  //!< K
-    double vapour_fraction = 0;   //!< kg/kg moist gas
-    double tracer_fraction = 0;   //!< kg/kg moist gas
+    double mass_flow = 0;                     //!< kg/s of moist gas
+    double temperature = 293.15;              //!< K
+    double vapour_fraction = 0;               //!< kg/kg moist gas
+    double tracer_fraction = 0;               //!< kg/kg moist gas
+    double turbulence_intensity = 0.05;       //!< root mean square of a fluctuation over the superficial velocity
+    std::optional<double> turbulence_length;  //!< of its eddies, m; none: 0.07 diameters of a disc of the inlet's area
     Opening at{};
 };
 
@@ -74,6 +79,37 @@ struct Tracer
     std::optional<double> molar_mass;
 };
 
+//! How viscosity depends on the rate of shear: what comes beside the viscosity at rest.
+struct Thinning
+{
+    law::viscosity::Any law{};
+    double infinite = 0;  //!< Pa s
+    double time = 0;      //!< s
+    double exponent = 1;
+};
+
+//! What granules do to turbulence (after Crowe, recalled): where they are, k changes per volume by the sum of
+//! beta (wake |u - v|^2 - 2 k T_p / (T + T_p)), T = lagrangian k/epsilon, T_p their time of relaxation.
+struct GranuleTurbulence
+{
+    bool on = false;
+    double wake = 0;            //!< share of the work of drag that becomes k
+    double lagrangian = 0.3;    //!< 0.2 to 0.32 (recalled)
+    double rate = 1.5;          //!< C_3 of the dissipation's equation, 1.2 to 1.8 (recalled)
+    double solids_density = 0;  //!< kg/m3
+};
+
+struct Turbulence
+{
+    law::turbulence::Any model{};
+    law::turbulence::WallLaw wall{};
+    double prandtl = 0.85, schmidt = 0.85;  //!< of the eddies: 0.7 to 0.9
+    double dense = 0.7, free = 0.95;  //!< voidages below which there is no eddy viscosity, and beyond it the whole
+    std::optional<double> energy;     //!< k at the start, m2/s2; none: that of the inlet with most, or 1e-4
+    std::optional<double> length;     //!< of eddies at the start, m; none: 0.07 of the narrowest side
+    GranuleTurbulence granules{};
+};
+
 struct Settings
 {
     std::vector<Inlet> inlets;
@@ -96,6 +132,8 @@ struct Settings
     std::optional<double> diffusivity;                    //!< of vapour
     std::optional<double> molar_mass, vapour_molar_mass;  //!< kg/mol, instead of those of air and water
     std::optional<Tracer> tracer;
+    Turbulence turbulence{};
+    Thinning thinning{};
     solve::Method pressure_solver = solve::Method::multigrid;
     double tolerance = 1e-6;  //!< of the pressure solve, relative to its right side
 };

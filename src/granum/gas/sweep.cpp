@@ -79,6 +79,7 @@ void Solver::Inside::sweep(Rows& system_of, std::vector<Run> const& nodes, Field
     double scale = 0;  // largest value of all ranks, from the first sweep
     for (int sweep = 0; sweep < most; ++sweep) {
         Seen seen;
+        ++sweeps;
         if (sweep % 2 == 0)
             for (auto const& run : nodes) {
                 gather(up, run.first, run.end, 1, x.data(), system_of.partial.data());

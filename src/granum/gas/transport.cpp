@@ -204,6 +204,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     if (set.tracer) {
         for (Index c = 0; c < grid.size(); ++c)
             property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] * set.tracer->diffusivity : 0;
+        if (closure) add_eddies(property, set.turbulence.schmidt);
         conduct(property);
         it.content = state.tracer;
         std::fill(it.source.begin(), it.source.end(), 0.0);
@@ -218,6 +219,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
         property[c] = grid.open(c) ? state.mass[c] / grid.open_volume[c] *
                                          set.diffusivity.value_or(diffusivity(state.temperature[c], set.pressure))
                                    : 0;
+    if (closure) add_eddies(property, set.turbulence.schmidt);
     conduct(property);
     it.content = state.vapour;
     it.source = sources.vapour;
@@ -231,6 +233,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     for (Index c = 0; c < grid.size(); ++c)
         property[c] =
             grid.open(c) ? state.voidage[c] * set.conductivity.value_or(conductivity(state.temperature[c])) : 0;
+    if (closure) add_eddies(property, set.turbulence.prandtl / heat_capacity_air);
     conduct(property);
     for (std::size_t d = 0; d < 3; ++d)
         for (Index q = 0; q < grid.size(); ++q)
@@ -278,7 +281,8 @@ void Solver::Inside::add_walls(State const& state, Carried& heat)
             double conductance = share * piece.area * wall.loss;
             if (wall.temperature)
                 conductance = share * piece.area / piece.distance * state.voidage[c] *
-                              settings.conductivity.value_or(material::conductivity(state.temperature[c]));
+                              settings.conductivity.value_or(material::conductivity(state.temperature[c])) *
+                              (closure ? closure->wall_heat[first] : 1);
             if (conductance == 0) continue;
             double const outside = wall.temperature.value_or(wall.outside) - math::zero_celsius;
             heat.sink[c] += conductance;

@@ -1,5 +1,6 @@
 #include "granum/geometry/chamber.hpp"
 
+#include "granum/geometry/region.hpp"
 #include "granum/math/constants.hpp"
 
 #include <algorithm>
@@ -84,11 +85,6 @@ double circle_rectangle_area(double radius, double x0, double x1, double y0, dou
     return std::max(0.0, area);
 }
 
-double Chamber::height() const
-{
-    return shape == Shape::box ? size.z : profile.empty() ? 0 : profile.back().height;
-}
-
 double Chamber::radius(double z) const
 {
     if (profile.empty()) return 0;
@@ -102,6 +98,7 @@ double Chamber::radius(double z) const
 
 Vec3 Chamber::lower() const
 {
+    if (shape == Shape::solids) return region ? region->lower() : Vec3{};
     if (shape == Shape::box) return {0, 0, 0};
     double widest = 0;
     for (auto const& point : profile) widest = std::max(widest, point.radius);
@@ -110,13 +107,22 @@ Vec3 Chamber::lower() const
 
 Vec3 Chamber::upper() const
 {
+    if (shape == Shape::solids) return region ? region->upper() : Vec3{};
     if (shape == Shape::box) return size;
     Vec3 const low = lower();
-    return {-low.x, -low.y, height()};
+    return {-low.x, -low.y, profile.empty() ? 0 : profile.back().height};
 }
 
 double Chamber::area(double z) const
 {
+    if (levels) {
+        auto const& [bottom, top, below, plate, outlet] = *levels;
+        double const step = (top - bottom) / static_cast<double>(below.size() - 1);
+        if (z <= bottom) return plate;
+        if (z >= top) return outlet;
+        auto const level = std::min(static_cast<std::size_t>((z - bottom) / step), below.size() - 2);
+        return (below[level + 1] - below[level]) / step;
+    }
     if (shape == Shape::box) return size.x * size.y;
     double const r = radius(z);
     return math::pi * r * r;
@@ -124,14 +130,25 @@ double Chamber::area(double z) const
 
 double Chamber::volume(double z0, double z1) const
 {
-    double const low = std::max(z0, 0.0), high = std::min(z1, height());
+    double const low = std::max(z0, bottom()), high = std::min(z1, top());
     if (high <= low) return 0;
+    if (levels) {
+        auto const& below = levels->below;
+        double const step = (levels->top - levels->bottom) / static_cast<double>(below.size() - 1);
+        auto const until = [&](double z) {
+            double const at = (z - levels->bottom) / step;
+            auto const level = std::min(static_cast<std::size_t>(std::max(at, 0.0)), below.size() - 2);
+            return std::lerp(below[level], below[level + 1], at - static_cast<double>(level));
+        };
+        return until(high) - until(low);
+    }
     if (shape == Shape::box) return size.x * size.y * (high - low);
     return integrate(profile, low, high, [this](double z) { return area(z); });  // quadratic: Gauss is exact
 }
 
 bool Chamber::inside(Vec3 const& x, double margin) const
 {
+    if (region) return margin > 0 ? region->distance(x) > margin : region->open(x);
     if (!(x.z > margin && x.z < height() - margin)) return false;
     if (shape == Shape::box) return x.x > margin && x.x < size.x - margin && x.y > margin && x.y < size.y - margin;
     double const r = std::hypot(x.x, x.y);
@@ -144,6 +161,11 @@ bool Chamber::inside(Vec3 const& x, double margin) const
         if (std::hypot(r - r0 - along * dr, x.z - z0 - along * dz) <= margin) return false;
     }
     return true;
+}
+
+bool Chamber::parted(Vec3 const& a, Vec3 const& b) const
+{
+    return region && region->blocked(a, b);
 }
 
 double Chamber::open_volume(Vec3 const& low, Vec3 const& high) const

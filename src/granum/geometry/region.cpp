@@ -145,6 +145,16 @@ WallDistance Region::at(Vec3 const& x, double enough) const
     return node_at(nodes_.size() - 1, x, enough, nothing);
 }
 
+bool Region::open(Vec3 const& x) const
+{
+    double const seam = 1e-9 * size_;
+    auto const wall = at(x, 2 * seam);
+    if (wall.distance > 0) return true;
+    if (wall.distance < -seam) return false;
+    Vec3 const beside = seam * wall.normal;
+    return distance(x + 2 * beside) > 0 && distance(x - 2 * beside) > 0;
+}
+
 Chamber const* Region::only_chamber(Vec3 const& x, double reach) const
 {
     if (!chamber_) return nullptr;

@@ -45,6 +45,8 @@ class Region
     WallDistance at(Vec3 const& x, double enough = std::numeric_limits<double>::infinity()) const;
     double distance(Vec3 const& x) const { return at(x).distance; }
     Vec3 normal(Vec3 const& x) const { return at(x).normal; }
+    //! Whether a place is open; within a seam of joined solids it is.
+    bool open(Vec3 const& x) const;
     std::size_t nearest_solid(Vec3 const& x) const { return at(x).solid; }
 
     //! Whether the straight line from a to b, its ends included, leaves the open region. Sees walls of any thickness

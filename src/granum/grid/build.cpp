@@ -2,6 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/grid/halo.hpp"
+#include "granum/grid/pockets.hpp"
 
 #include <algorithm>
 
@@ -9,14 +10,23 @@ namespace granum::grid
 {
 namespace
 {
-constexpr double smallest_open_fraction = 1e-5;
+// Volumes and areas of solids are good to some thousandths of a cell: what is smaller may not be there.
+constexpr double smallest_of_solids = 5e-3;
 }
 
 Openness openness(geometry::Chamber const& chamber)
 {
+    if (auto const region = chamber.region)
+        return {.volume = [region](Vec3 const& low, Vec3 const& high) { return open_volume(*region, low, high); },
+                .area =
+                    [region](std::size_t d, Vec3 const& low, Vec3 const& high, geometry::Beside const& beside) {
+                        return open_area(*region, static_cast<int>(d), low, high, beside);
+                    },
+                .smallest = smallest_of_solids,
+                .smallest_face = smallest_of_solids};
     return {.volume = [chamber](Vec3 const& low, Vec3 const& high) { return chamber.open_volume(low, high); },
-            .area = [chamber](std::size_t d, Vec3 const& low,
-                              Vec3 const& high) { return chamber.open_area(static_cast<int>(d), low, high); }};
+            .area = [chamber](std::size_t d, Vec3 const& low, Vec3 const& high,
+                              geometry::Beside const&) { return chamber.open_area(static_cast<int>(d), low, high); }};
 }
 
 Grid frame(Lines const& lines, Layout const& layout, par::Communicator const& comm)
@@ -44,7 +54,7 @@ Grid build(Openness const& space, Lines const& lines, Layout const& layout, par:
     };
     for_each_cell(grid, [&](int i, int j, int k, Index c) {
         double const open = space.volume(corner({i, j, k}, 0), corner({i, j, k}, 1));
-        grid.open_volume[c] = open < smallest_open_fraction * grid.volume(i, j, k) ? 0 : open;
+        grid.open_volume[c] = open < space.smallest * grid.volume(i, j, k) ? 0 : open;
     });
     refresh(grid, {&grid.open_volume});
 
@@ -58,10 +68,15 @@ Grid build(Openness const& space, Lines const& lines, Layout const& layout, par:
             bool const high_end = cell[d] == grid.n[d];
             if (!high_end && !grid.open(c)) return;
             if (!low_end && !grid.open(grid.before(c, d))) return;
-            grid.open_area[d][c] = std::min(space.area(d, corner(cell, 0), corner(cell, 1)), grid.area(d, cell));
+            geometry::Beside const beside{low_end ? 0 : grid.axes[d].width(cell[d] - 1),
+                                          high_end ? 0 : grid.axes[d].width(cell[d])};
+            double const full = grid.area(d, cell);
+            double const open = std::min(space.area(d, corner(cell, 0), corner(cell, 1), beside), full);
+            grid.open_area[d][c] = open < space.smallest_face * full ? 0 : open;
         });
         refresh(grid, {&grid.open_area[d]});
     }
+    close_pockets(grid, comm);
     return grid;
 }
 }

@@ -1,6 +1,7 @@
 #include "granum/io/snapshot_file.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/geometry/cut_outline.hpp"
 #include "granum/io/hdf5_file.hpp"
 #include "granum/io/text_file.hpp"
 
@@ -38,6 +39,7 @@ void for_each_points(SnapshotType& snapshot, Visitor&& visit)
 
 std::vector<std::array<double, 2>> mid_plane_outline(geometry::Chamber const& chamber)
 {
+    if (chamber.region) return geometry::cut_outline(*chamber.region, mid_plane(chamber));
     if (chamber.shape == geometry::Chamber::Shape::box) {
         auto const& size = chamber.size;
         return {{0, 0}, {size.x, 0}, {size.x, size.z}, {0, size.z}};
@@ -51,7 +53,7 @@ std::vector<std::array<double, 2>> mid_plane_outline(geometry::Chamber const& ch
 
 double mid_plane(geometry::Chamber const& chamber)
 {
-    return chamber.shape == geometry::Chamber::Shape::box ? chamber.size.y / 2 : 0;
+    return 0.5 * (chamber.lower().y + chamber.upper().y);
 }
 
 void write_snapshot(std::string const& path, Snapshot const& snapshot)

@@ -55,14 +55,14 @@ struct Snapshot
 {
     double time = 0;                             //!< s
     double mid_plane = 0;                        //!< y of the cut, m
-    std::vector<std::array<double, 2>> outline;  //!< corners (x, z) of the chamber in the cut, m
+    std::vector<std::array<double, 2>> outline;  //!< corners (x, z) of the chamber in the cut, m; NaN: a break
     std::vector<Vec3> nozzles;                   //!< m
     GranuleView granules;
     DropletView droplets;
     GasSlice gas;
 };
 
-//! Corners (x, z) of the chamber cut at its middle, and the y of that cut.
+//! Corners (x, z) of the chamber cut at its middle, and the y of that cut; with bodies, pieces between breaks.
 std::vector<std::array<double, 2>> mid_plane_outline(geometry::Chamber const& chamber);
 double mid_plane(geometry::Chamber const& chamber);
 

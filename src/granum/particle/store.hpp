@@ -31,12 +31,13 @@ enum class Group : std::uint8_t
     process,     //!< heat, liquid and layers
     added_mass,  //!< gas that the parcel carries along (virtual mass)
     turning,     //!< what the gas does to the parcel's spin
+    eddies,      //!< what the parcel sees of the gas's turbulence
 };
 
-//! The groups of columns that a store has besides the core. The last two go with gas only.
+//! The groups of columns that a store has besides the core. The last three go with gas only.
 struct Groups
 {
-    bool parcel = true, gas = true, process = true, added_mass = false, turning = false;
+    bool parcel = true, gas = true, process = true, added_mass = false, turning = false, eddies = false;
 
     bool has(Group group) const
     {
@@ -51,6 +52,8 @@ struct Groups
                 return added_mass;
             case Group::turning:
                 return turning;
+            case Group::eddies:
+                return eddies;
             case Group::core:
                 break;
         }
@@ -119,6 +122,10 @@ struct Store
     Column<double> spin_rate{{"spin_rate", "1/s", false, false, Group::turning}};
     Column<Vec3> spin_impulse{{"spin_impulse", "N m s", false, false, Group::turning}};  //!< summed by `dem` meanwhile
 
+    //! Fluctuation of the gas that the parcel sees, over its standard deviation.
+    Column<Vec3> fluctuation{{"fluctuation", "1", false, false, Group::eddies}};
+    Column<double> eddy_left{{"eddy_left", "s", false, false, Group::eddies}};  //!< time that the present eddy lives on
+
     // The real granules that the parcel stands for.
     Column<double> count{{"count", "1", true, true, Group::parcel}};
     Column<double> diameter{{"diameter", "m", true, true, Group::parcel}};  //!< of one real granule
@@ -157,6 +164,7 @@ void for_every_column(StoreType& store, Visitor&& visit)
     visit(store.force), visit(store.torque);
     visit(store.gas_velocity), visit(store.drag_rate), visit(store.gas_force), visit(store.drag_impulse);
     visit(store.added_mass), visit(store.gas_spin), visit(store.spin_rate), visit(store.spin_impulse);
+    visit(store.fluctuation), visit(store.eddy_left);
     visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.core_diameter),
         visit(store.layer_mass);
     visit(store.layer_volume), visit(store.water), visit(store.solute), visit(store.enthalpy);

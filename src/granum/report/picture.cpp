@@ -18,6 +18,7 @@ std::vector<double> crossings(std::vector<std::array<double, 2>> const& outline,
     for (std::size_t i = 0; i < outline.size(); ++i) {
         auto const& a = outline[i];
         auto const& b = outline[(i + 1) % outline.size()];
+        if (std::isnan(a[1]) || std::isnan(b[1])) continue;
         if ((a[1] <= z) != (b[1] <= z)) out.push_back(a[0] + (z - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
     }
     std::sort(out.begin(), out.end());
@@ -181,6 +182,7 @@ void Picture::draw_outline(io::Snapshot const& snapshot)
     for (std::size_t i = 0; i < outline.size(); ++i) {
         auto const& a = outline[i];
         auto const& b = outline[(i + 1) % outline.size()];
+        if (std::isnan(a[1]) || std::isnan(b[1])) continue;
         double const length = std::hypot(b[0] - a[0], b[1] - a[1]) * scale_;
         int const steps = std::clamp(static_cast<int>(length), 1, 20000);
         for (int s = 0; s <= steps; ++s) {

@@ -2,6 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/material/moist_air.hpp"
+#include "granum/sim/opening_area.hpp"
 
 #include <algorithm>
 
@@ -29,7 +30,9 @@ double open_area(Case const& data, OpeningCase const& opening)
     auto const& chamber = data.chamber;
     std::size_t const e = (opening.direction + 1) % 3, f = (opening.direction + 2) % 3;
     Vec3 low = chamber.lower(), high = chamber.upper();
-    if (!opening.rectangle && opening.direction == 2) return chamber.area(opening.upper ? chamber.height() : 0);
+    if (!opening.rectangle && opening.direction == 2)
+        return chamber.area(opening.upper ? chamber.top() : chamber.bottom());
+    if (!opening.rectangle && chamber.region) return opening_area(data, opening).free;
     if (opening.rectangle)
         for (std::size_t const d : {e, f}) {
             low[d] = std::max(low[d], opening.rectangle->lower[d]);

@@ -6,13 +6,61 @@
 
 namespace granum::sim
 {
+namespace
+{
+//! The last one with gas only.
+constexpr std::array<std::pair<char const*, char const*>, 6> columns_of_box{{{"solids_fraction", "1"},
+                                                                             {"granules", "1"},
+                                                                             {"velocity_x", "m/s"},
+                                                                             {"velocity_y", "m/s"},
+                                                                             {"velocity_z", "m/s"},
+                                                                             {"gas_pressure", "Pa"}}};
+
+std::array<double, columns_of_box.size()> row_of(BoxContent const& box)
+{
+    return {box.solids_fraction, box.granules, box.velocity.x, box.velocity.y, box.velocity.z, box.pressure};
+}
+
+//! Length that two intervals have in common.
+double common(double a, double b, double c, double d)
+{
+    return std::max(0.0, std::min(b, d) - std::max(a, c));
+}
+
+//! Mean pressure of the gas in each box over the open cells that reach into it, Pa. Collective.
+std::vector<double> pressures(Simulation& simulation)
+{
+    auto const& boxes = simulation.data().output.boxes;
+    auto const& grid = simulation.grid();
+    std::vector<base::ExactSum> sums(2 * boxes.size());
+    grid::for_each_cell(grid, [&](int i, int j, int k, grid::Index c) {
+        if (!grid.open(c)) return;
+        std::array<int, 3> const cell{i, j, k};
+        for (std::size_t b = 0; b < boxes.size(); ++b) {
+            auto const& [lower, upper] = boxes[b].region;
+            double volume = 1;
+            for (std::size_t d = 0; d < 3; ++d)
+                volume *= common(grid.axes[d].face(cell[d]), grid.axes[d].face(cell[d] + 1), lower[d], upper[d]);
+            if (volume == 0) continue;
+            sums[2 * b].add(volume * simulation.gas().pressure[c]);
+            sums[2 * b + 1].add(volume);
+        }
+    });
+    simulation.comm().sum(std::span(sums));
+    std::vector<double> out(boxes.size());
+    for (std::size_t b = 0; b < boxes.size(); ++b)
+        if (double const volume = sums[2 * b + 1].value(); volume > 0) out[b] = sums[2 * b].value() / volume;
+    return out;
+}
+}
+
 std::vector<BoxContent> box_contents(Simulation& simulation)
 {
     auto const& data = simulation.data();
     auto const& boxes = data.output.boxes;
     auto const& granules = simulation.granules();
     Vec3 const length = data.chamber.upper() - data.chamber.lower();
-    std::vector<base::ExactSum> volume(boxes.size());
+    std::vector<base::ExactSum> volume(boxes.size()), flow(3 * boxes.size());
     std::vector<double> inside(boxes.size());
     for (std::size_t b = 0; b < boxes.size(); ++b) {
         auto const& [lower, upper] = boxes[b].region;
@@ -39,17 +87,29 @@ std::vector<BoxContent> box_contents(Simulation& simulation)
                         real = real && other[d] != 0;
                         at[d] += other[d];
                     }
-                if (real) volume[b].add(geometry::ball_in_box(at, radius, lower, upper));
+                if (!real) continue;
+                double const part = geometry::ball_in_box(at, radius, lower, upper);
+                if (part == 0) continue;
+                volume[b].add(part);
+                for (std::size_t d = 0; d < 3; ++d) flow[3 * b + d].add(part * granules.velocity[row][d]);
             }
         }
     }
     simulation.comm().sum(std::span(volume));
+    simulation.comm().sum(std::span(flow));
     simulation.comm().sum(std::span(inside));
     std::vector<BoxContent> out;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
         Vec3 const size = boxes[b].region.upper - boxes[b].region.lower;
-        out.push_back({volume[b].value() / (size.x * size.y * size.z), inside[b]});
+        double const solids = volume[b].value();
+        BoxContent content{solids / (size.x * size.y * size.z), inside[b], {}, 0};
+        if (solids > 0)
+            for (std::size_t d = 0; d < 3; ++d) content.velocity[d] = flow[3 * b + d].value() / solids;
+        out.push_back(content);
     }
+    if (!simulation.has_gas() || boxes.empty()) return out;
+    auto const pressure = pressures(simulation);
+    for (std::size_t b = 0; b < boxes.size(); ++b) out[b].pressure = pressure[b];
     return out;
 }
 
@@ -59,13 +119,19 @@ BoxOutput::BoxOutput(std::string const& folder, Simulation& simulation) : simula
     if (!simulation.comm().root() || boxes.empty()) return;
     std::vector<io::SeriesColumn> columns{{"time", "s"}};
     for (auto const& box : boxes)
-        for (auto const* what : {"solids_fraction", "granules"}) columns.push_back({box.name + "_" + what, "1"});
+        for (auto const& [what, unit] : std::span(columns_of_box).first(width()))
+            columns.push_back({box.name + "_" + what, unit});
     file_ = std::make_unique<io::SeriesWriter>(folder + "/boxes.csv", columns);
+}
+
+std::size_t BoxOutput::width() const
+{
+    return columns_of_box.size() - (simulation_.has_gas() ? 0 : 1);
 }
 
 std::string BoxOutput::head() const
 {
-    std::string out;
+    std::string out = fmt::format("{}\n", width());
     for (auto const& [name, region] : simulation_.data().output.boxes)
         out += fmt::format("{} {} {} {} {} {} {}\n", name, region.lower.x, region.lower.y, region.lower.z,
                            region.upper.x, region.upper.y, region.upper.z);
@@ -77,7 +143,10 @@ void BoxOutput::sample()
     last_ = box_contents(simulation_);
     if (!file_) return;
     std::vector<double> row{simulation_.time()};
-    for (auto const& [solids, granules] : last_) row.insert(row.end(), {solids, granules});
+    for (auto const& box : last_) {
+        auto const numbers = row_of(box);
+        row.insert(row.end(), numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(width()));
+    }
     file_->append(row);
     rows_.insert(rows_.end(), row.begin(), row.end());
 }
@@ -94,13 +163,14 @@ void BoxOutput::go_on(io::Sections const& saved)
     auto const was = io::values_of<char>(io::find_section(saved, "output.boxes.head"));
     if (!file_ || std::string(was.begin(), was.end()) != head()) return;
     rows_ = io::values_of<double>(io::find_section(saved, "output.boxes"));
-    std::size_t const boxes = simulation_.data().output.boxes.size(), width = 1 + 2 * boxes;
-    for (std::size_t at = 0; at + width <= rows_.size(); at += width)
-        file_->append(std::span<double const>(rows_).subspan(at, width));
-    if (rows_.size() < width) return;
+    std::size_t const boxes = simulation_.data().output.boxes.size(), row = 1 + width() * boxes;
+    for (std::size_t at = 0; at + row <= rows_.size(); at += row)
+        file_->append(std::span<double const>(rows_).subspan(at, row));
+    if (rows_.size() < row) return;
     for (std::size_t b = 0; b < boxes; ++b) {
-        auto const* const numbers = rows_.data() + rows_.size() - width + 1 + 2 * b;
-        last_.push_back({numbers[0], numbers[1]});
+        auto const* const numbers = rows_.data() + rows_.size() - row + 1 + width() * b;
+        last_.push_back(
+            {numbers[0], numbers[1], {numbers[2], numbers[3], numbers[4]}, simulation_.has_gas() ? numbers[5] : 0});
     }
 }
 }

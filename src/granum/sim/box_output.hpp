@@ -1,4 +1,4 @@
-// How densely granules lie in boxes that the case names: boxes.csv.
+// How densely granules lie in boxes that the case names, and where they go: boxes.csv.
 #pragma once
 
 #include "granum/io/csv.hpp"
@@ -15,6 +15,8 @@ struct BoxContent
 {
     double solids_fraction = 0;  //!< volume of granules in the box over its own; where two overlap both count
     double granules = 0;         //!< parcels whose centre lies in the box
+    Vec3 velocity{};             //!< mean of what is inside, by volume, m/s
+    double pressure = 0;         //!< mean of the gas above that of the case, Pa
 };
 
 //! What the boxes of the case hold, the same on every rank and on any number of them. A granule that crosses a face
@@ -36,7 +38,8 @@ class BoxOutput
     void go_on(io::Sections const& saved);
 
   private:
-    std::string head() const;  //!< all that the columns depend on
+    std::string head() const;   //!< all that the columns depend on
+    std::size_t width() const;  //!< columns of a box
 
     Simulation& simulation_;
     std::unique_ptr<io::SeriesWriter> file_;

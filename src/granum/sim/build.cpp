@@ -28,6 +28,11 @@ std::vector<geometry::Body> walls(Case const& data)
 {
     auto const& chamber = data.chamber;
     std::vector<geometry::Body> out;
+    if (chamber.shape == geometry::Chamber::Shape::solids) {
+        out = data.bodies;
+        out.insert(out.end(), data.walls.begin(), data.walls.end());
+        return out;
+    }
     auto const faces = [&](std::size_t axis) {
         constexpr std::array<std::array<char const*, 2>, 3> names{
             {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
@@ -57,6 +62,7 @@ std::vector<geometry::Body> walls(Case const& data)
         }
         out.push_back(std::move(wall));
     }
+    out.insert(out.end(), data.bodies.begin(), data.bodies.end());
     out.insert(out.end(), data.walls.begin(), data.walls.end());
     return out;
 }
@@ -71,7 +77,7 @@ double collision_speed(Case const& data)
         double const density = data.gas.density ? *data.gas.density
                                                 : material::density(data.gas.pressure, data.gas.inlet.temperature,
                                                                     material::fraction(data.gas.inlet.humidity));
-        fastest = std::max(fastest, flow / (density * data.chamber.area(0)));
+        fastest = std::max(fastest, flow / (density * data.chamber.area(data.chamber.bottom())));
     }
     return std::max(fastest, fastest_meeting(data) + fastest_wall(data));
 }
@@ -169,7 +175,8 @@ particle::Groups column_groups(Case const& data)
             .gas = gas,
             .process = gas,
             .added_mass = gas && (forces.virtual_mass != "none" || forces.history > 0),
-            .turning = gas && forces.torque != "none"};
+            .turning = gas && forces.torque != "none",
+            .eddies = gas && data.gas.dispersion != "none"};
 }
 
 double smoothing(Case const& data)
@@ -186,6 +193,17 @@ coupling::Scheme mapping_scheme(Case const& data)
                                            : coupling::Scheme::kernel;
 }
 
+namespace
+{
+law::dispersion::Any dispersion(Case const& data, std::string const& name)
+{
+    auto law = named<law::dispersion::All>(name);
+    if (auto* const langevin = std::get_if<law::dispersion::Langevin>(&law))
+        langevin->time_ratio = data.gas.turbulence.memory;
+    return law;
+}
+}
+
 coupling::Laws exchange_laws(Case const& data)
 {
     auto const& forces = data.gas.forces;
@@ -198,7 +216,9 @@ coupling::Laws exchange_laws(Case const& data)
             .history = forces.history > 0,
             .polydisperse = forces.polydisperse,
             .filtered = forces.filtered,
-            .emissivity = data.granules.emissivity};
+            .emissivity = data.granules.emissivity,
+            .dispersion = dispersion(data, data.gas.dispersion),
+            .seed = data.seed};
 }
 
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
@@ -274,6 +294,7 @@ spray::FlightSettings flight_settings(Case const& data)
             .pressure = data.gas.pressure,
             .end_moisture = data.drying.end_moisture,
             .longest_hop = 0.25 * cell,
+            .dispersion = dispersion(data, data.spray.dispersion),
             .seed = data.seed};
 }
 

@@ -165,6 +165,8 @@ struct InletCase : FlowCase
 {
     OpeningCase at;
     double tracer = 0;  //!< kg/kg moist gas
+    double turbulence_intensity = 0.05;
+    std::optional<double> turbulence_length;  //!< m
 };
 
 //! [[outlet]]
@@ -211,6 +213,23 @@ struct ForceCase
     bool polydisperse = false;  //!< drag of each size of a mixture
     bool filtered = false;      //!< drag of cells wider than clusters
 };
+//! Turbulence of the gas and the viscosity's law, in [gas].
+struct TurbulenceCase
+{
+    std::string model = "laminar";
+    std::map<std::string, double> constants;  //!< of the model and of the law of the wall
+    double intensity = 0.05;                  //!< of what enters
+    std::optional<double> velocity, length;   //!< at the start: m/s, m; the length also of what enters
+    double prandtl = 0.85, schmidt = 0.85;
+    double dense = 0.7, free = 0.95;  //!< voidages between which granules let eddies grow
+    bool granules = false;            //!< whether they damp and make turbulence
+    double wake = 0, memory = 0.3, rate = 1.5;
+};
+struct ViscosityCase
+{
+    std::string law = "newtonian";
+    double infinite = 0, time = 0, exponent = 1;  //!< Pa s, s, 1
+};
 struct GasCase
 {
     bool present = false;
@@ -234,6 +253,9 @@ struct GasCase
     std::string drag = "beetstra";
     std::string heat_transfer = "gunn";
     ForceCase forces;
+    TurbulenceCase turbulence;
+    ViscosityCase thinning;
+    std::string dispersion = "none";  //!< of what granules see of the turbulence
     std::string mapping = "kernel";   //!< or "centre" or "divided"
     std::optional<double> smoothing;  //!< bandwidth of the smoothing of what granules and gas share, m; none: by size
     bool closed = false;              //!< no inlet and no outlet (periodic or closed box)
@@ -273,6 +295,7 @@ struct SprayCase
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules
+    std::string dispersion = "none";   //!< of what droplets see of the turbulence
     bool allow_overwetting = false;
 };
 
@@ -335,6 +358,8 @@ struct Case
     std::array<bool, 3> periodic{};             //!< of a box
     std::array<std::array<bool, 2>, 3> open{};  //!< [axis][low, high]: faces without a wall
     bool discharge = false;                     //!< granules that leave through open faces are counted, not an error
+    std::vector<geometry::Body> bodies;         //!< walls of [[apparatus.solid]] and [[internal]]
+    double resolution = 0;                      //!< to which walls of joined bodies are drawn, m
     std::vector<geometry::Body> walls;          //!< [[wall]], besides those of the chamber
     Vec3 gravity{0, 0, -math::standard_gravity};
     std::uint32_t seed = 1;

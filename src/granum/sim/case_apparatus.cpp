@@ -10,10 +10,12 @@ using io::Dimension;
 void read_apparatus(io::CaseFile& file, Case& data, Purpose purpose)
 {
     if (purpose == Purpose::balance && !file.has("apparatus")) return;
-    auto const shape = file.name("apparatus.shape", std::nullopt, "\"box\" or \"revolution\" (round, about the z axis)",
-                                 {"box", "revolution"}, "a shape");
+    auto const shape =
+        file.name("apparatus.shape", std::nullopt, "\"box\", \"revolution\" (round, about the z axis) or \"solids\"",
+                  {"box", "revolution", "solids"}, "a shape");
     bool const box = shape == "box";
-    data.chamber.shape = box ? geometry::Chamber::Shape::box : geometry::Chamber::Shape::revolution;
+    using Shape = geometry::Chamber::Shape;
+    data.chamber.shape = shape == "solids" ? Shape::solids : box ? Shape::box : Shape::revolution;
     if (box || file.has("apparatus.size")) {
         data.chamber.size =
             file.vector("apparatus.size", Dimension::length, std::nullopt, "width, depth and height of a box");
@@ -36,16 +38,21 @@ void read_apparatus(io::CaseFile& file, Case& data, Purpose purpose)
         data.open[face / 2][face % 2] = true;
         if (data.periodic[face / 2])
             file.mistake("apparatus.open", fmt::format("names {}, but {} repeats itself", name, "xyz"[face / 2]));
-        if (!box && face < 4) file.mistake("apparatus.open", fmt::format("names {}, but the chamber is round", name));
+        if (shape == "revolution" && face < 4)
+            file.mistake("apparatus.open", fmt::format("names {}, but the chamber is round", name));
     }
     data.discharge = file.name("apparatus.leaving", "error", "what a granule does that leaves through an open face",
                                {"error", "discharge"}, "a way to leave") == "discharge";
     if (file.has("apparatus.open") && file.has("gas"))
         file.mistake("apparatus.open", "goes with granules alone: gas has a plate and an outlet");
+    if (file.has("apparatus.open") && shape == "solids")
+        file.mistake("apparatus.open", "does not go with shape = \"solids\", which is closed to granules");
 
     auto const rows =
         file.table("apparatus.profile", 2, Dimension::length, "rows of height and diameter, from the plate up");
-    if (box && !rows.empty()) file.mistake("apparatus.profile", "belongs to shape = \"revolution\"");
+    if (shape != "revolution" && !rows.empty() && !file.wrong("apparatus.shape"))
+        file.mistake("apparatus.profile", "belongs to shape = \"revolution\"");
+    read_solids(file, data);
     if (shape != "revolution") return;
     if (!file.has("apparatus.profile"))
         file.mistake("apparatus.profile", "is missing",

@@ -14,10 +14,10 @@ using io::Dimension;
 
 namespace
 {
-bool chamber_known(io::CaseFile const& file)
+bool chamber_known(io::CaseFile const& file, Case const& data)
 {
-    return file.has("apparatus") && !file.wrong("apparatus.shape") && !file.wrong("apparatus.size") &&
-           !file.wrong("apparatus.profile");
+    return data.chamber.known() && file.has("apparatus") && !file.wrong("apparatus.shape") &&
+           !file.wrong("apparatus.size") && !file.wrong("apparatus.profile");
 }
 
 bool granules_known(io::CaseFile const& file, Case const& data)
@@ -43,8 +43,8 @@ void check_bed(io::CaseFile& file, Case const& data)
                              : std::string(file.has("granules.run") ? "granules.run" : "granules.file");
         if (data.chamber.inside(data.granules.given[i].position)) continue;
         auto const& x = data.granules.given[i].position;
-        file.mistake(key, fmt::format("puts granule {} outside the chamber, at ({:.4g}, {:.4g}, {:.4g}) m", i + 1, x.x,
-                                      x.y, x.z));
+        file.mistake(key, fmt::format("puts granule {} {}, at ({:.4g}, {:.4g}, {:.4g}) m", i + 1,
+                                      where_in_bodies(data.chamber, x), x.x, x.y, x.z));
         break;
     }
 }
@@ -146,11 +146,14 @@ void check_nozzles(io::CaseFile& file, Case const& data)
     for (std::size_t i = 0; i < data.spray.nozzles.size(); ++i) {
         auto const key = fmt::format("nozzle[{}].position", i);
         if (file.wrong(key) || data.chamber.inside(data.spray.nozzles[i].position)) continue;
-        double const z = data.spray.nozzles[i].position.z;
+        auto const& position = data.spray.nozzles[i].position;
+        double const z = position.z;
         std::vector<std::string> hints{fmt::format("the chamber is {:.4g} mm high", 1e3 * data.chamber.height())};
-        if (z > 0 && z < data.chamber.height() && data.chamber.shape == geometry::Chamber::Shape::revolution)
+        if (data.chamber.region) hints = {"its exit must be in the open, a millimetre or so before its body"};
+        if (!data.chamber.region && z > 0 && z < data.chamber.height() &&
+            data.chamber.shape == geometry::Chamber::Shape::revolution)
             hints = {fmt::format("at this height the wall is {:.4g} mm from the axis", 1e3 * data.chamber.radius(z))};
-        file.mistake(key, "is outside the chamber", hints);
+        file.mistake(key, "is " + where_in_bodies(data.chamber, position), hints);
     }
 }
 
@@ -175,7 +178,7 @@ void check_drying(io::CaseFile& file, Case const& data)
 
 void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vector<std::string>& warnings)
 {
-    bool const chamber = chamber_known(file);
+    bool const chamber = chamber_known(file, data);
     bool const by_velocity = std::any_of(data.gas.inlets.begin(), data.gas.inlets.end(),
                                          [](auto const& inlet) { return inlet.velocity > 0; });
     if (purpose == Purpose::balance) {
@@ -191,6 +194,7 @@ void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vec
             if (!data.contact.hard()) check_steps(file, data);
         }
         check_nozzles(file, data);
+        check_against_bodies(file, data);
     }
     if (!by_velocity || chamber) check_drying(file, data);
     if (chamber) check_hard_spheres(file, data);

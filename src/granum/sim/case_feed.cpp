@@ -14,7 +14,7 @@ RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chambe
     RegionCase region;
     region.lower = file.vector(key + "lower", Dimension::length, std::nullopt, doc);
     region.upper = file.vector(key + "upper", Dimension::length, std::nullopt, doc);
-    if (file.wrong(key + "lower") || file.wrong(key + "upper")) return region;
+    if (file.wrong(key + "lower") || file.wrong(key + "upper") || !chamber.known()) return region;
     Vec3 const low = chamber.lower(), high = chamber.upper();
     for (std::size_t d = 0; d < 3; ++d) {
         if (!(region.lower[d] < region.upper[d])) {

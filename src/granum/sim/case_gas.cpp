@@ -177,6 +177,7 @@ void read_gas(io::CaseFile& file, Case& data, Purpose purpose)
     gas.heat_transfer =
         file.name("gas.heat_transfer", gas.heat_transfer, "law", laws_for("gas.heat_transfer"), "a heat transfer law");
     read_forces(file, gas.forces);
+    read_turbulence(file, gas);
     gas.mapping =
         file.name("gas.mapping", gas.mapping, "of granules to cells", {"kernel", "centre", "divided"}, "a way");
     gas.smoothing = file.optional_quantity("gas.smoothing", Dimension::length,
@@ -217,7 +218,7 @@ void read_cells(io::CaseFile& file, Case& data)
         if (std::isfinite(fine.lower + fine.upper + fine.size)) gas.fine.push_back(fine);
     }
     if (!file.has("apparatus") || file.wrong("apparatus.shape") || file.wrong("apparatus.profile") ||
-        file.wrong("apparatus.size"))
+        file.wrong("apparatus.size") || !data.chamber.known())
         return;
     auto const low = data.chamber.lower(), high = data.chamber.upper(), extent = high - low;
     if (!cells.empty()) {

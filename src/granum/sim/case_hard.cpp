@@ -62,6 +62,15 @@ void check_hard_spheres(io::CaseFile& file, Case const& data)
                      "collision",
                      {"leave it out"});
     bool known = true;
+    for (auto const& body : data.bodies) {
+        try {
+            dem::HardWalls({body});
+        } catch (base::NumericsError const& error) {
+            known = false;
+            file.mistake(file.has("internal") ? "internal" : "apparatus.solid",
+                         fmt::format("\"{}\": {}", body.name, error.what()), {soft_hint});
+        }
+    }
     for (std::size_t k = 0; k < data.walls.size(); ++k) {
         try {
             dem::HardWalls({data.walls[k]});

@@ -1,5 +1,6 @@
 // Reads [[inlet]], [[outlet]] and [[gas.wall]]: where gas enters and leaves, and what it meets.
 #include "granum/base/error.hpp"
+#include "granum/geometry/region.hpp"
 #include "granum/io/csv.hpp"
 #include "granum/sim/case_sections.hpp"
 
@@ -88,6 +89,8 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
     auto const profile = file.name(key + "profile", "uniform", "of what enters over the opening",
                                    {"uniform", "parabolic", "rings", "holes"}, "a profile");
     out.parabolic = profile == "parabolic";
+    if (out.parabolic && !out.round && !out.rectangle && data.chamber.shape == geometry::Chamber::Shape::solids)
+        file.mistake(key + "profile", "needs the diameter, or lower and upper, in an apparatus of solids");
     auto const rings = file.table(key + "rings", 2, Dimension::length,
                                   "outer diameter of each ring and a length that says how much enters per area");
     if (profile == "rings") {
@@ -130,7 +133,7 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
         } catch (base::Error const& error) {
             file.mistake(key + "hole_file", error.what());
         }
-    } else if (pitch && hole) {
+    } else if (pitch && hole && data.chamber.known()) {
         if (*hole >= *pitch) file.mistake(key + "hole_diameter", "is not below the pitch");
         Vec3 lower = data.chamber.lower(), upper = data.chamber.upper();
         if (out.rectangle) lower = out.rectangle->lower, upper = out.rectangle->upper;
@@ -142,10 +145,11 @@ void read_profile(io::CaseFile& file, Case const& data, std::string const& key, 
             double const away = std::hypot(one.x - out.centre[e], one.y - out.centre[f]);
             return away + one.radius > reach || away - one.radius < out.inner;
         });
-    } else {
+    } else if (!pitch || !hole) {
         file.mistake(key + "profile", "needs the holes", {"hole_file, or pitch and hole_diameter"});
     }
-    if (out.holes.empty() && !file.wrong(key + "hole_file") && !file.wrong(key + "profile") && pitch && hole)
+    if (data.chamber.known() && out.holes.empty() && !file.wrong(key + "hole_file") && !file.wrong(key + "profile") &&
+        pitch && hole)
         file.mistake(key + "pitch", "leaves no hole in the opening");
 }
 
@@ -160,6 +164,12 @@ InletCase read_inlet(io::CaseFile& file, Case const& data, std::string const& ke
     static_cast<FlowCase&>(inlet) = read_flow(file, key, gas, inlet.temperature);
     inlet.tracer = file.quantity(key + "tracer", Dimension::one, 0.0, "kg per kg of what enters", io::zero_to_one);
     if (inlet.tracer > 0 && !gas.tracer) file.mistake(key + "tracer", "needs [gas.tracer]");
+    inlet.turbulence_intensity =
+        file.quantity(key + "turbulence_intensity", Dimension::one, gas.turbulence.intensity,
+                      "root mean square of a fluctuation over the velocity of what enters", io::not_negative);
+    inlet.turbulence_length = file.optional_quantity(key + "turbulence_length", Dimension::length,
+                                                     "of the eddies that enter; 0.07 diameters", io::positive);
+    if (!inlet.turbulence_length) inlet.turbulence_length = gas.turbulence.length;
     return inlet;
 }
 
@@ -225,6 +235,8 @@ void read_openings(io::CaseFile& file, Case& data)
         InletCase plate;
         static_cast<FlowCase&>(plate) = gas.inlet;
         plate.at.name = "plate";
+        plate.turbulence_intensity = gas.turbulence.intensity;
+        plate.turbulence_length = gas.turbulence.length;
         gas.inlets.push_back(plate);
         OutletCase outlet;
         outlet.at = {.name = "outlet", .direction = 2, .upper = true};
@@ -244,10 +256,15 @@ void read_gas_walls(io::CaseFile& file, Case& data)
         file.quantity("gas.surroundings", Dimension::temperature, 293.15, "temperature outside", io::positive);
     gas.walls = {everywhere};
     std::vector<std::string> known{"all"};
-    if (data.chamber.shape == geometry::Chamber::Shape::box) {
+    using Shape = geometry::Chamber::Shape;
+    auto const& region = data.chamber.region;
+    // Of a box and of a body of revolution the chamber itself is the first solid.
+    for (std::size_t k = data.chamber.shape == Shape::solids ? 0 : 1; region && k < region->solids(); ++k)
+        known.push_back(region->name(k));
+    if (data.chamber.shape == Shape::box) {
         for (std::size_t end = 0; end < 6; ++end)
             if (!data.periodic[end / 2]) known.push_back(end_names()[end]);
-    } else {
+    } else if (data.chamber.shape == Shape::revolution) {
         known.insert(known.end(), {"chamber", "bottom", "top"});
     }
     std::set<std::string> met;

@@ -48,6 +48,7 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
 
     read_apparatus(file, data, purpose);
     read_contact(file, data);
+    read_internals(file, data);
     read_walls(file, data);
     read_region(file, data);
     read_granules(file, data, purpose);

@@ -8,12 +8,18 @@
 namespace granum::sim
 {
 void read_apparatus(io::CaseFile& file, Case& data, Purpose purpose);
-void read_contact(io::CaseFile& file, Case& data);                    //!< with the materials
+//! The chamber of [[apparatus.solid]]. Where it is no chamber, Chamber::known() is false.
+void read_solids(io::CaseFile& file, Case& data);
+void read_internals(io::CaseFile& file, Case& data);  //!< [[internal]], after the apparatus and the materials
+void read_contact(io::CaseFile& file, Case& data);    //!< with the materials
 void read_granules(io::CaseFile& file, Case& data, Purpose purpose);  //!< after the materials
 void read_walls(io::CaseFile& file, Case& data);                      //!< after the materials
 void read_region(io::CaseFile& file, Case& data);                     //!< after the apparatus
 void read_feeds(io::CaseFile& file, Case& data);                      //!< after the granules
 void read_gas(io::CaseFile& file, Case& data, Purpose purpose);
+void read_turbulence(io::CaseFile& file, GasCase& gas);  //!< and the law of the viscosity, of [gas]
+//! A mistake at `key` where the model of turbulence transports no k.
+void need_eddies(io::CaseFile& file, std::string const& key, GasCase const& gas);
 void read_openings(io::CaseFile& file, Case& data);   //!< [[inlet]], [[outlet]], after [gas]
 void read_gas_walls(io::CaseFile& file, Case& data);  //!< [[gas.wall]], after the apparatus
 //! Flow, temperature and humidity of a gas, at the keys that begin with `key` ("gas.").
@@ -32,6 +38,10 @@ RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chambe
 //! A name that heads columns of a CSV file must not break them.
 void check_column_name(io::CaseFile& file, std::string const& key, std::string const& name);
 
+//! Openings that the solids of the apparatus or bodies in it cover; after the openings.
+void check_against_bodies(io::CaseFile& file, Case const& data);
+//! Which wall a place that is not open lies in, to be read after "is".
+std::string where_in_bodies(geometry::Chamber const& chamber, Vec3 const& x);
 void check_hard_spheres(io::CaseFile& file, Case const& data);  //!< after all others
 
 //! What no single value shows: the mistakes and warnings that follow from values together.

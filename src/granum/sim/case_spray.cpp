@@ -81,6 +81,9 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     spray.parcels_per_second = file.quantity("spray.parcels_per_second", Dimension::count_rate,
                                              spray.parcels_per_second, "droplet parcels made per second", io::positive);
     spray.capture = file.name("spray.capture", spray.capture, "law", laws_for("spray.capture"), "a capture law");
+    spray.dispersion = file.name("spray.dispersion", spray.dispersion, "law", laws_for("gas.dispersion"),
+                                 "a law of turbulent dispersion");
+    if (spray.dispersion != "none") need_eddies(file, "spray.dispersion", data.gas);
     spray.allow_overwetting =
         file.boolean("spray.allow_overwetting", false, "run even if the air cannot take up the water");
     for (int i = 0; i < nozzles; ++i)

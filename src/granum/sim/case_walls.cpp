@@ -2,10 +2,10 @@
 #include "granum/base/error.hpp"
 #include "granum/geometry/stl.hpp"
 #include "granum/sim/case_sections.hpp"
+#include "granum/sim/case_solid.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 namespace granum::sim
@@ -70,22 +70,16 @@ struct WallReader
 
     void mesh()
     {
-        auto const name = file.words(key + "file", std::nullopt, "STL file beside the case or in a folder there");
+        auto const path = read_path(file, key + "file", "STL file beside the case or in a folder there");
         geometry::StlOptions options;
         options.scale = file.quantity(key + "unit", Dimension::length, 1e-3, "one unit of the file", io::positive);
         options.shift = point("shift", "added to every corner", Vec3{});
-        if (file.wrong(key + "file") || !std::isfinite(options.scale)) return;
-        // A case that is passed on with its folder must find its files, and no others.
-        auto const path = std::filesystem::path(name).lexically_normal();
-        if (path.is_absolute() || path.empty() || *path.begin() == "..") {
-            file.mistake(key + "file", "leads out of the folder of the case", {"put the file beside the case"});
-            return;
-        }
+        if (!path || !std::isfinite(options.scale)) return;
         try {
-            auto mesh = geometry::read_stl(file.beside(path.string()), options);
+            auto mesh = geometry::read_stl(*path, options);
             if (mesh.degenerate > 0)
                 file.derived(key + "left_out", fmt::format("{}", mesh.degenerate), "triangles without area");
-            file.note_contents(key + "file", file.beside(path.string()));
+            file.note_contents(key + "file", *path);
             body.shapes.push_back(std::move(mesh.mesh));
         } catch (base::Error const& error) {
             file.mistake(key + "file", error.what(), {"the path is relative to the case"});
@@ -228,16 +222,19 @@ void read_walls(io::CaseFile& file, Case& data)
 {
     std::set<std::string> const taken{"chamber", "left", "right", "front", "back", "bottom", "top"};
     auto names = taken;
+    for (auto const& body : data.bodies) names.insert(body.name);
     int const count = file.count("wall");
     if (count > 0 && file.has("gas"))
-        file.mistake("wall", "goes with granules alone: gas knows the chamber only", {"leave out [gas] or [[wall]]"});
+        file.mistake("wall", "goes with granules alone: gas knows the chamber and its bodies only",
+                     {"make it a body, [[internal]], or leave out [gas] or [[wall]]"});
     for (int i = 0; i < count; ++i) {
         WallReader reader{file, data, fmt::format("wall[{}].", i)};
         reader.read();
         auto const& name = reader.body.name;
         if (!names.insert(name).second)
-            file.mistake(reader.key + "name",
-                         fmt::format("is that of {} too", taken.contains(name) ? "the chamber" : "another wall"));
+            file.mistake(
+                reader.key + "name",
+                fmt::format("is that of {} too", taken.contains(name) ? "the chamber" : "another wall or body"));
         data.walls.push_back(std::move(reader.body));
     }
 }

@@ -126,7 +126,7 @@ void add_warnings(Case const& data, Forecast& out)
     if (out.balance && out.balance->overwetted())
         warn("the air cannot take up the sprayed water: the bed will over-wet");
     for (auto const& nozzle : data.spray.nozzles)
-        if (out.bed_height > 0 && nozzle.position.z < out.bed_height)
+        if (out.bed_height > 0 && nozzle.position.z < data.chamber.bottom() + out.bed_height)
             warn(fmt::format("a nozzle at {:.3g} m lies below the top of the settled bed ({:.3g} m)", nozzle.position.z,
                              out.bed_height));
 }
@@ -135,13 +135,14 @@ void add_warnings(Case const& data, Forecast& out)
 std::optional<double> settled_height(Case const& data)
 {
     double const needed = data.granules.mass / data.granules.density / settled_solids;
-    double low = 0, high = data.chamber.height();
-    if (!(needed <= data.chamber.volume(0, high))) return std::nullopt;
+    double const bottom = data.chamber.bottom();
+    double low = bottom, high = data.chamber.top();
+    if (!(needed <= data.chamber.volume())) return std::nullopt;
     for (int i = 0; i < 60; ++i) {
         double const middle = 0.5 * (low + high);
-        (data.chamber.volume(0, middle) < needed ? low : high) = middle;
+        (data.chamber.volume(bottom, middle) < needed ? low : high) = middle;
     }
-    return high;
+    return high - bottom;
 }
 
 double plate_velocity(Case const& data)
@@ -149,7 +150,7 @@ double plate_velocity(Case const& data)
     double flow = 0;
     for (auto const& inlet : data.gas.inlets)
         if (inlet.at.direction == 2 && !inlet.at.upper) flow += moist_mass_flow(data, inlet);
-    return flow > 0 ? flow / (gas_density(data) * data.chamber.area(0)) : 0;
+    return flow > 0 ? flow / (gas_density(data) * data.chamber.area(data.chamber.bottom())) : 0;
 }
 
 double expected_contact_speed(Case const& data)

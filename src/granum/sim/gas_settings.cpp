@@ -1,6 +1,6 @@
 // From the gas of a case to the settings of the solver: openings as integrals over rectangles, walls by place.
 #include "granum/base/error.hpp"
-#include "granum/geometry/chamber.hpp"
+#include "granum/geometry/region.hpp"
 #include "granum/material/moist_air.hpp"
 #include "granum/sim/balance.hpp"
 #include "granum/sim/build.hpp"
@@ -47,7 +47,45 @@ double paraboloid(Rectangle const& r, std::array<double, 2> const& centre, doubl
     return sum;
 }
 
-gas::Opening opening(Case const& data, OpeningCase const& one)
+//! Walls by their names: what of the chamber a point lies at.
+void describe_walls(Case const& data, gas::Settings& settings)
+{
+    settings.walls.clear();
+    std::vector<std::size_t> of_end(6, 0);
+    std::size_t of_chamber = 0;
+    std::vector<std::size_t> of_solid(data.chamber.region ? data.chamber.region->solids() : 0, 0);
+    for (auto const& wall : data.gas.walls) {
+        std::size_t const number = settings.walls.size();
+        settings.walls.push_back({.slip = wall.slip,
+                                  .velocity = wall.velocity,
+                                  .temperature = wall.temperature,
+                                  .loss = wall.loss,
+                                  .outside = wall.outside});
+        auto const& names = end_names();
+        auto const end = std::find(names.begin(), names.end(), wall.of);
+        if (end != names.end()) of_end[static_cast<std::size_t>(end - names.begin())] = number;
+        if (wall.of == "chamber") of_chamber = number;
+        for (std::size_t k = 0; k < of_solid.size(); ++k)
+            if (data.chamber.region->name(k) == wall.of) of_solid[k] = number;
+    }
+    if (settings.walls.size() == 1) return;
+    Vec3 const low = data.chamber.lower(), high = data.chamber.upper();
+    using Shape = geometry::Chamber::Shape;
+    std::size_t const first_end = data.chamber.shape == Shape::box          ? 0
+                                  : data.chamber.shape == Shape::revolution ? 2
+                                                                            : 3;
+    settings.wall_at = [=, region = data.chamber.region](Vec3 const& x) {
+        for (std::size_t d = first_end; d < 3; ++d) {
+            double const near = 1e-9 * (high[d] - low[d]);
+            if (std::abs(x[d] - low[d]) <= near) return of_end[2 * d];
+            if (std::abs(x[d] - high[d]) <= near) return of_end[2 * d + 1];
+        }
+        return region ? of_solid[region->nearest_solid(x)] : of_chamber;
+    };
+}
+}
+
+gas::Opening gas_opening(Case const& data, OpeningCase const& one)
 {
     gas::Opening out{.name = one.name, .direction = one.direction, .upper = one.upper, .share = {}};
     bool const even = !one.parabolic && one.rings.empty() && one.holes.empty();
@@ -61,7 +99,7 @@ gas::Opening opening(Case const& data, OpeningCase const& one)
     std::array<double, 2> const centre{one.centre[e], one.centre[f]};
     bool const round_chamber = data.chamber.shape == geometry::Chamber::Shape::revolution;
     double const widest = one.round       ? one.outer
-                          : round_chamber ? data.chamber.radius(one.upper ? data.chamber.height() : 0)
+                          : round_chamber ? data.chamber.radius(one.upper ? data.chamber.top() : data.chamber.bottom())
                                           : 0;
     std::array<bool, 2> const repeats{data.periodic[e], data.periodic[f]};
     out.share = [=](Vec3 const& from, Vec3 const& to) {
@@ -100,36 +138,31 @@ gas::Opening opening(Case const& data, OpeningCase const& one)
     return out;
 }
 
-//! Walls by their names: what of the chamber a point lies at.
-void describe_walls(Case const& data, gas::Settings& settings)
+namespace
 {
-    settings.walls.clear();
-    std::vector<std::size_t> of_end(6, 0);
-    std::size_t of_chamber = 0;
-    for (auto const& wall : data.gas.walls) {
-        std::size_t const number = settings.walls.size();
-        settings.walls.push_back({.slip = wall.slip,
-                                  .velocity = wall.velocity,
-                                  .temperature = wall.temperature,
-                                  .loss = wall.loss,
-                                  .outside = wall.outside});
-        auto const& names = end_names();
-        auto const end = std::find(names.begin(), names.end(), wall.of);
-        if (end != names.end()) of_end[static_cast<std::size_t>(end - names.begin())] = number;
-        if (wall.of == "chamber") of_chamber = number;
-    }
-    if (settings.walls.size() == 1) return;
-    Vec3 const low = data.chamber.lower(), high = data.chamber.upper();
-    bool const box = data.chamber.shape == geometry::Chamber::Shape::box;
-    settings.wall_at = [=](Vec3 const& x) {
-        for (std::size_t d = 0; d < 3; ++d) {
-            if (!box && d < 2) continue;
-            double const near = 1e-9 * (high[d] - low[d]);
-            if (std::abs(x[d] - low[d]) <= near) return of_end[2 * d];
-            if (std::abs(x[d] - high[d]) <= near) return of_end[2 * d + 1];
-        }
-        return of_chamber;
+gas::Turbulence turbulence(Case const& data)
+{
+    TurbulenceCase const& given = data.gas.turbulence;
+    gas::Turbulence out;
+    auto const model = law::turbulence::All::make(given.model);
+    base::require(model.has_value(), "there is no model of turbulence called \"{}\"", given.model);
+    out.model = *model;
+    auto const take = [&](char const* name, double& constant) {
+        auto const found = given.constants.find(name);
+        if (found != given.constants.end()) constant = found->second;
     };
+    std::visit([&](auto& law) { law.each_constant(take); }, out.model);
+    out.wall.each_constant(take);
+    out.prandtl = given.prandtl, out.schmidt = given.schmidt;
+    out.dense = given.dense, out.free = given.free;
+    if (given.velocity) out.energy = 1.5 * *given.velocity * *given.velocity;
+    out.length = given.length;
+    out.granules = {.on = given.granules,
+                    .wake = given.wake,
+                    .lagrangian = given.memory,
+                    .rate = given.rate,
+                    .solids_density = data.granules.density};
+    return out;
 }
 }
 
@@ -151,13 +184,15 @@ gas::Settings gas_settings(Case const& data)
                                    .temperature = inlet.temperature,
                                    .vapour_fraction = material::fraction(inlet.humidity),
                                    .tracer_fraction = inlet.tracer,
-                                   .at = opening(data, inlet.at)});
+                                   .turbulence_intensity = inlet.turbulence_intensity,
+                                   .turbulence_length = inlet.turbulence_length,
+                                   .at = gas_opening(data, inlet.at)});
     for (auto const& outlet : gas.outlets)
         settings.outlets.push_back({.pressure = outlet.pressure,
                                     .resistance = outlet.resistance,
                                     .ambient_temperature = outlet.temperature,
                                     .ambient_vapour_fraction = material::fraction(outlet.humidity),
-                                    .at = opening(data, outlet.at)});
+                                    .at = gas_opening(data, outlet.at)});
     describe_walls(data, settings);
     settings.model = gas.model == "B" ? gas::Model::b : gas::Model::a;
     settings.compressibility = gas.compressibility == "constant" ? gas::Compressibility::constant
@@ -180,6 +215,10 @@ gas::Settings gas_settings(Case const& data)
     settings.diffusivity = gas.diffusivity;
     settings.molar_mass = gas.molar_mass;
     settings.vapour_molar_mass = gas.vapour_molar_mass;
+    settings.turbulence = turbulence(data);
+    auto const thinning = law::viscosity::All::make(gas.thinning.law);
+    base::require(thinning.has_value(), "there is no law of viscosity called \"{}\"", gas.thinning.law);
+    settings.thinning = {*thinning, gas.thinning.infinite, gas.thinning.time, gas.thinning.exponent};
     if (gas.tracer) settings.tracer = gas::Tracer{gas.tracer->diffusivity, gas.tracer->molar_mass};
     return settings;
 }

@@ -10,6 +10,7 @@
 #include "granum/law/force/all.hpp"
 #include "granum/law/force/basset.hpp"
 #include "granum/law/heat/all.hpp"
+#include "granum/law/turbulence/all.hpp"
 #include "granum/law/viscosity/all.hpp"
 #include "granum/product/all.hpp"
 
@@ -43,8 +44,9 @@ std::vector<LawFamily> const& law_families()
         family<law::force::ShearLiftLaws>("lift-shear", "gas.shear_lift", "lift of the shear of the gas"),
         family<law::force::SpinLiftLaws>("lift-spin", "gas.spin_lift", "lift of the spin of the granules"),
         family<law::force::TorqueLaws>("torque", "gas.torque", "torque of the gas on the granules"),
-        family<law::viscosity::All>("viscosity", "", "viscosity from the rate of shear"),
-        family<law::dispersion::All>("dispersion", "", "dispersion of droplets by the turbulence of the gas"),
+        family<law::turbulence::All>("turbulence", "gas.turbulence", "turbulence of the gas"),
+        family<law::viscosity::All>("viscosity", "gas.viscosity_law", "viscosity from the rate of shear"),
+        family<law::dispersion::All>("dispersion", "gas.dispersion", "dispersion by the turbulence of the gas"),
         family<law::heat::All>("heat-transfer", "gas.heat_transfer", "heat and vapour between granules and gas"),
         family<law::contact::NormalLaws>("contact-normal", "contact.normal", "contact force along the line of centres"),
         family<law::contact::TangentialLaws>("contact-tangential", "contact.tangential", "contact force across it"),

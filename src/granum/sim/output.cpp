@@ -74,6 +74,7 @@ struct CellRow
     int i, j, k;
     double open, pressure, voidage, temperature, humidity, potential;
     Vec3 velocity;
+    double eddy_viscosity, turbulent_energy;
 };
 
 std::vector<CellRow> cell_rows(Simulation& simulation)
@@ -81,6 +82,7 @@ std::vector<CellRow> cell_rows(Simulation& simulation)
     auto const& grid = simulation.grid();
     auto const& gas = simulation.gas();
     auto const velocity = simulation.solver().cell_velocity(gas);
+    auto const eddies = simulation.solver().eddy_viscosity(gas);
     std::vector<CellRow> rows;
     grid::for_each_cell(grid, [&](int i, int j, int k, Index c) {
         rows.push_back({i + grid.shift[0],
@@ -92,7 +94,9 @@ std::vector<CellRow> cell_rows(Simulation& simulation)
                         gas.temperature[c],
                         air::loading(gas.vapour_fraction[c]),
                         simulation.local_drying_potential(gas.temperature[c], gas.vapour_fraction[c]),
-                        {velocity[0][c], velocity[1][c], velocity[2][c]}});
+                        {velocity[0][c], velocity[1][c], velocity[2][c]},
+                        eddies.empty() ? 0 : eddies[c],
+                        gas.turbulent ? gas.energy_of_eddies[c] : 0});
     });
     rows = gathered(simulation.comm(), rows);
     std::sort(rows.begin(), rows.end(),
@@ -240,7 +244,7 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
         events_ = std::make_unique<io::EventsWriter>(folder_ + "/events.h5", event_columns);
         event_log_ = std::make_unique<io::RowLog>(folder_ + "/checkpoint/events.rows", event_columns.size());
     }
-    io::write_surface(folder_ + "/vtk/walls.vtp", io::chamber_surface(simulation.data().chamber));
+    io::write_surface(folder_ + "/vtk/walls.vtp", chamber_walls(simulation.data()));
     io::Collection(folder_ + "/walls.pvd").add(0, "vtk/walls.vtp");
     if (saved)
         go_on(*saved);
@@ -397,14 +401,20 @@ void Output::picture()
     if (simulation_.has_gas()) {
         auto const& grid = simulation_.grid();
         std::string const file = name("gas", "vtr");
-        io::write_cells(folder_ + "/" + file, grid.lines,
-                        {column("open", cells, [](auto const& r) { return r.open; }),
-                         column("velocity [m/s]", cells, [](auto const& r) { return r.velocity; }),
-                         column("pressure [Pa]", cells, [](auto const& r) { return r.pressure; }),
-                         column("voidage", cells, [](auto const& r) { return r.voidage; }),
-                         column("temperature [K]", cells, [](auto const& r) { return r.temperature; }),
-                         column("humidity [kg/kg]", cells, [](auto const& r) { return r.humidity; }),
-                         column("drying potential", cells, [](auto const& r) { return r.potential; })});
+        std::vector<io::NamedArray> columns{
+            column("open", cells, [](auto const& r) { return r.open; }),
+            column("velocity [m/s]", cells, [](auto const& r) { return r.velocity; }),
+            column("pressure [Pa]", cells, [](auto const& r) { return r.pressure; }),
+            column("voidage", cells, [](auto const& r) { return r.voidage; }),
+            column("temperature [K]", cells, [](auto const& r) { return r.temperature; }),
+            column("humidity [kg/kg]", cells, [](auto const& r) { return r.humidity; }),
+            column("drying potential", cells, [](auto const& r) { return r.potential; })};
+        if (simulation_.data().gas.turbulence.model != "laminar")
+            columns.push_back(column("eddy viscosity [m2/s]", cells, [](auto const& r) { return r.eddy_viscosity; }));
+        if (simulation_.gas().turbulent)
+            columns.push_back(
+                column("turbulent energy [m2/s2]", cells, [](auto const& r) { return r.turbulent_energy; }));
+        io::write_cells(folder_ + "/" + file, grid.lines, columns);
         gas_.add(time, file);
         snapshot.gas = slice(cells, grid, snapshot.mid_plane);
     }

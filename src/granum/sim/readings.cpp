@@ -66,16 +66,16 @@ Readings Simulation::readings() const
             hottest = std::max(hottest, granules_.temperature[row]);
         }
         exact[solids_volume].add(volume);
-        exact[solids_area].add(volume * case_.chamber.area(std::clamp(z, 0.0, case_.chamber.height())));
+        exact[solids_area].add(volume * case_.chamber.area(std::clamp(z, case_.chamber.bottom(), case_.chamber.top())));
         exact[mass].add(granules_.mass[row]);
-        exact[mass_height].add(granules_.mass[row] * z);
+        exact[mass_height].add(granules_.mass[row] * (z - case_.chamber.bottom()));
         exact[energy].add(0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]));
     }
     comm_.sum(exact);
     std::array<double, count> sums{};
     if (has_gas()) {
         sums[out_mass] = last_.mass_out, sums[out_vapour] = last_.vapour_out, sums[out_enthalpy] = last_.enthalpy_out;
-        double const g = -case_.gravity.z, height = case_.chamber.height();
+        double const g = -case_.gravity.z, top = case_.chamber.top();
         grid::for_each_cell(grid_, [&](int i, int j, int k, Index cell) {
             if (!grid_.open(cell)) return;
             coldest = std::min(coldest, gas_.temperature[cell]);
@@ -83,7 +83,7 @@ Readings Simulation::readings() const
             if (k == 0 && grid_.at_end(2, false)) {
                 // Less the weight of the gas column, as a differential pressure gauge beside the bed would read; the
                 // lower half of the cell at the plate falls as steeply as what is above it.
-                double const column = gas_.density[cell] * g * (height - grid_.axes[2].face(k));
+                double const column = gas_.density[cell] * g * (top - grid_.axes[2].face(k));
                 double const slope =
                     (gas_.pressure[cell] - gas_.pressure[grid_.at(i, j, k + 1)]) / grid_.axes[2].gap(k + 1);
                 double const plate = gas_.pressure[cell] + 0.5 * grid_.axes[2].width(k) * slope;

@@ -1,5 +1,6 @@
 #include "granum/sim/run.hpp"
 
+#include "granum/base/bandwidth.hpp"
 #include "granum/io/checkpoint.hpp"
 #include "granum/io/folder_lock.hpp"
 #include "granum/sim/case_reader.hpp"
@@ -233,6 +234,11 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         }
         comm.sum(performance.seconds);
         performance.granule_steps = simulation.granule_steps();
+        auto const& gas = simulation.gas_work();
+        std::array<double, 4> work{gas.cell_steps, gas.bytes, gas.iterations, gas.sweeps};
+        comm.sum(work);
+        performance.gas = {work[0], work[1], work[2], work[3]};
+        if (simulation.has_gas() && ended == "done") performance.triad_rate = -comm.max(-base::triad_rate());
         performance.state_hash = state_hash(simulation.granules(), comm);
         auto warnings = run_warnings(simulation, resolved.warnings);
         if (root)

@@ -2,6 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
+#include "granum/gas/traffic.hpp"
 #include "granum/grid/build.hpp"
 #include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
@@ -135,7 +136,7 @@ void Simulation::gas_step(double dt)
         auto const scope = stopwatch_.time(base::Stage::exchange);
         mapping_->locate(granules_);
         voidage = exchange_->voidage(granules_);
-        exchange_->share(granules_, gas_, dt, seen_, sources_);
+        exchange_->share(granules_, gas_, dt, seen_, sources_, static_cast<std::uint32_t>(steps_));
     }
     if (case_.spray.present) {
         auto const scope = stopwatch_.time(base::Stage::spray_and_drying);
@@ -176,6 +177,11 @@ void Simulation::gas_step(double dt)
         auto const scope = stopwatch_.time(base::Stage::gas);
         last_ = solver_->advance(gas_, sources_, voidage, dt);
         unconverged_ += !last_.pressure_converged;
+        double const cells = static_cast<double>(grid_.n[0]) * grid_.n[1] * grid_.n[2];
+        gas_work_.cell_steps += cells;
+        gas_work_.bytes += cells * gas::bytes_per_cell(last_);
+        gas_work_.iterations += cells * last_.pressure_iterations;
+        gas_work_.sweeps += cells * last_.sweeps;
         in_[1] += last_.vapour_in, out_[1] += last_.vapour_out;
         in_[2] += last_.enthalpy_in + last_.pressure_work, out_[2] += last_.enthalpy_out + last_.wall_heat;
         heat_.wall_gas += last_.wall_heat;
@@ -254,7 +260,7 @@ void Simulation::fly_droplets(double dt)
             droplets_.push_back(droplet);
         }
     }
-    around_->prepare(*solver_, gas_, granules_, sources_, dt);
+    around_->prepare(*solver_, gas_, granules_, sources_, dt, case_.spray.dispersion != "none");
     spray::Outcome outcome;
     spray::fly(droplets_, flight_, case_.chamber, *around_, dt, static_cast<std::uint32_t>(steps_), outcome);
     mine_.evaporated += outcome.evaporated;

@@ -63,6 +63,15 @@ struct Readings
     double kinetic_energy = 0;        //!< J of the granules
 };
 
+//! What the gas of this rank took since the program began.
+struct GasWork
+{
+    double cell_steps = 0;  //!< steps of its cells
+    double bytes = 0;       //!< that they asked of memory, see gas/traffic.hpp
+    double iterations = 0;  //!< of the pressure, times cells
+    double sweeps = 0;      //!< times cells
+};
+
 class Simulation
 {
   public:
@@ -100,6 +109,7 @@ class Simulation
     base::Stopwatch& stopwatch() { return stopwatch_; }
     double local_drying_potential(double temperature, double vapour_fraction) const;
     long unconverged_steps() const { return unconverged_; }  //!< gas steps whose pressure missed its tolerance
+    GasWork const& gas_work() const { return gas_work_; }
     long clamped_cells() const { return exchange_ ? exchange_->clamped_cells() : 0; }
 
     //! All that the next step depends on, this rank's part: what a checkpoint holds.
@@ -181,6 +191,7 @@ class Simulation
     SprayTotals mine_;
     HeatTotals heat_;
     gas::Balance last_;  //!< boundary flows of the last gas step
+    GasWork gas_work_;
     std::vector<Feed> feeds_;
     std::vector<GranuleCase> poured_;      //!< until they have been poured, before the run
     std::unique_ptr<WallRoom> wall_room_;  //!< for the feeds

@@ -42,6 +42,7 @@ void Simulation::make_gas()
         wet_bulb_ = std::make_unique<material::WetBulbTable>(gas.pressure);
     }
     solver_ = std::make_unique<gas::Solver>(gas_settings(case_), grid_, comm_);
+    gas_.turbulent = law::turbulence::transports(solver_->settings().turbulence.model);
     mapping_ = std::make_unique<coupling::Mapping>(grid_, comm_, smoothing(case_), mapping_scheme(case_));
     exchange_ = std::make_unique<coupling::Exchange>(
         exchange_laws(case_), *solver_, grid_, comm_, *mapping_,
@@ -98,7 +99,7 @@ void Simulation::start_deposits()
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);
     double flow = 0;
     for (auto const& inlet : solver_->settings().inlets) flow += inlet.mass_flow;
-    double const speed = flow / (density * case_.chamber.area(0));
+    double const speed = flow / (density * case_.chamber.area(case_.chamber.bottom()));
     double const schmidt = viscosity / (density * air::diffusivity(temperature, pressure));
     double const sherwood = std::visit(
         [&](auto const& law) {
@@ -114,7 +115,7 @@ void Simulation::start_deposits()
 
     // One deposit of the median droplet; the others dry in times proportional to the square of their diameter.
     double const median = spray.droplet_median;
-    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(0));
+    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(case_.chamber.bottom()));
     auto const& nozzle = nozzles_.front();
     Vec3 const surface = nozzle.position + std::max(0.02, nozzle.position.z - 1.5 * settled) * nozzle.direction;
     law::impact::Impact const impact{spray.density, spray.viscosity, spray.surface_tension,

@@ -195,6 +195,18 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
         performance.wall > 0 ? static_cast<double>(performance.granule_steps) / performance.wall : 0;
     for (std::size_t s = 0; s < performance.seconds.size(); ++s)
         out["performance"]["share"][std::string(base::stage_names[s])] = total > 0 ? performance.seconds[s] / total : 0;
+    if (auto const& gas = performance.gas; gas.cell_steps > 0) {
+        double const seconds = performance.seconds[static_cast<std::size_t>(base::Stage::gas)];
+        out["performance"]["gas"] = {{"us_per_cell_step", 1e6 * seconds / gas.cell_steps},
+                                     {"pressure_iterations", gas.iterations / gas.cell_steps},
+                                     {"sweeps", gas.sweeps / gas.cell_steps},
+                                     {"bytes_per_cell_step", gas.bytes / gas.cell_steps},
+                                     {"bytes_per_s", gas.bytes / seconds}};
+        if (performance.triad_rate > 0) {
+            out["performance"]["gas"]["triad_bytes_per_s"] = performance.triad_rate;
+            out["performance"]["gas"]["share_of_bandwidth"] = gas.bytes / seconds / performance.triad_rate;
+        }
+    }
     return out.dump(2);
 }
 

@@ -30,11 +30,17 @@ std::array<int, 3> DropletSurroundings::cell_of(Vec3 const& x) const
 }
 
 void DropletSurroundings::prepare(gas::Solver const& solver, gas::State const& state, particle::Store const& granules,
-                                  gas::Sources& sources, double dt)
+                                  gas::Sources& sources, double dt, bool eddies)
 {
     velocity_ = solver.cell_velocity(state);
     grid::Field* fields[] = {&velocity_[0], &velocity_[1], &velocity_[2]};
     mapping_.prepare(fields);
+    if (eddies) {
+        eddies_ = solver.eddies(state);
+        grid::Field* more[] = {&eddies_->energy, &eddies_->dissipation, &eddies_->gradient[0], &eddies_->gradient[1],
+                               &eddies_->gradient[2]};
+        mapping_.prepare(more);
+    }
     state_ = &state, sources_ = &sources, granules_ = &granules, dt_ = dt;
     // Counting sort of the granules by cell.
     first_.assign(grid_.size() + 1, 0);
@@ -56,6 +62,11 @@ spray::Seen DropletSurroundings::seen(Vec3 const& x) const
     auto const stencil = mapping_.stencil(x);
     spray::Seen seen;
     seen.gas_velocity = mapping_.gather(stencil, velocity_);
+    if (eddies_) {
+        seen.turbulent_energy = mapping_.gather(stencil, eddies_->energy);
+        seen.dissipation = mapping_.gather(stencil, eddies_->dissipation);
+        seen.energy_gradient = mapping_.gather(stencil, eddies_->gradient);
+    }
     seen.temperature = mapping_.gather(stencil, state_->temperature);
     seen.vapour_fraction = mapping_.gather(stencil, state_->vapour_fraction);
     seen.density = mapping_.gather(stencil, state_->density);

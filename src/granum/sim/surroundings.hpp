@@ -5,6 +5,8 @@
 #include "granum/spray/flight.hpp"
 #include "granum/spray/nozzle.hpp"
 
+#include <optional>
+
 namespace granum::sim
 {
 class DropletSurroundings final : public spray::Surroundings
@@ -14,8 +16,9 @@ class DropletSurroundings final : public spray::Surroundings
                         std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition, int rank);
 
     //! Takes the fields and granules of this step; exchange is added to `sources` as rates over `dt`.
+    //! `eddies`: whether droplets ask for the turbulence.
     void prepare(gas::Solver const& solver, gas::State const& state, particle::Store const& granules,
-                 gas::Sources& sources, double dt);
+                 gas::Sources& sources, double dt, bool eddies);
 
     spray::Seen seen(math::Vec3 const& x) const override;
     void give(math::Vec3 const& x, spray::Given const& given) override;
@@ -32,6 +35,7 @@ class DropletSurroundings final : public spray::Surroundings
     int rank_;
     double dt_ = 0;
     std::array<grid::Field, 3> velocity_;
+    std::optional<gas::Eddies> eddies_;
     gas::State const* state_ = nullptr;
     gas::Sources* sources_ = nullptr;
     particle::Store const* granules_ = nullptr;

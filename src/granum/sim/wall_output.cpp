@@ -1,5 +1,7 @@
 #include "granum/sim/wall_output.hpp"
 
+#include "granum/geometry/region_walls.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,6 +49,16 @@ void add_sphere(io::Surface& out, geometry::Sphere const& sphere)
     for (int k = 0; k < bands; ++k) add_band(out, axis, height(k), radius(k), height(k + 1), radius(k + 1));
 }
 
+void append(io::Surface& to, io::Surface const& one)
+{
+    int const shift = static_cast<int>(to.corners.size());
+    to.corners.insert(to.corners.end(), one.corners.begin(), one.corners.end());
+    for (auto face : one.faces) {
+        for (int& corner : face) corner += shift;
+        to.faces.push_back(std::move(face));
+    }
+}
+
 void add(io::Surface& out, geometry::Shape const& shape)
 {
     if (auto const* flank = std::get_if<geometry::Frustum>(&shape)) {
@@ -71,6 +83,22 @@ io::Surface body_surface(geometry::Body const& body, geometry::Pose const& pose)
     io::Surface out;
     for (auto const& shape : body.shapes) add(out, shape);
     for (auto& corner : out.corners) corner = pose.to_space(corner);
+    return out;
+}
+
+io::Surface chamber_walls(Case const& data)
+{
+    auto const& region = data.chamber.region;
+    io::Surface out;
+    if (data.chamber.shape != geometry::Chamber::Shape::solids) out = io::chamber_surface(data.chamber);
+    for (auto body : data.bodies) {
+        // Planes have no ends: what they bound is drawn instead.
+        auto const plane = [](auto const& shape) { return std::holds_alternative<geometry::Plane>(shape); };
+        if (std::any_of(body.shapes.begin(), body.shapes.end(), plane))
+            for (std::size_t k = 0; k < region->solids(); ++k)
+                if (region->name(k) == body.name) body.shapes = geometry::surface_shapes(region->solid(k), false);
+        append(out, body_surface(body, {}));
+    }
     return out;
 }
 
@@ -123,15 +151,7 @@ void WallOutput::picture(int number)
     auto const& mover = simulation_.mover();
     std::size_t const first = mover.settings().walls.size() - own.size();  // those of the chamber come before
     io::Surface all;
-    for (std::size_t k = 0; k < own.size(); ++k) {
-        auto const one = body_surface(own[k], mover.pose(first + k));
-        int const shift = static_cast<int>(all.corners.size());
-        all.corners.insert(all.corners.end(), one.corners.begin(), one.corners.end());
-        for (auto face : one.faces) {
-            for (int& corner : face) corner += shift;
-            all.faces.push_back(std::move(face));
-        }
-    }
+    for (std::size_t k = 0; k < own.size(); ++k) append(all, body_surface(own[k], mover.pose(first + k)));
     auto const name = fmt::format("vtk/case_walls_{:06d}.vtp", number);
     io::write_surface(folder_ + "/" + name, all);
     surfaces_.add(simulation_.time(), name);

@@ -14,6 +14,9 @@ namespace granum::sim
 //! The bodies as triangles and quadrangles where they are now; planes are left out. Round shapes have 64 pieces.
 io::Surface body_surface(geometry::Body const& body, geometry::Pose const& pose);
 
+//! The chamber and the bodies in it, its outlet open where it is a box or a body of revolution.
+io::Surface chamber_walls(Case const& data);
+
 //! Writes on rank 0; every call is collective.
 class WallOutput
 {

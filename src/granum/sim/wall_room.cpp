@@ -2,14 +2,17 @@
 
 namespace granum::sim
 {
-WallRoom::WallRoom(Case const& data) : chamber_(data.chamber)
+WallRoom::WallRoom(Case const& data) : chamber_(data.chamber), outline_(data.chamber)
 {
+    outline_.region.reset(), outline_.levels.reset();
+    for (auto const& body : data.bodies) bodies_.emplace_back(body);
     for (auto const& body : data.walls) bodies_.emplace_back(body);
 }
 
 bool WallRoom::operator()(Vec3 const& centre, double radius)
 {
-    if (!chamber_.inside(centre, radius)) return false;
+    if (!chamber_.inside(centre)) return false;
+    if (outline_.known() && !outline_.inside(centre, radius)) return false;
     for (auto const& body : bodies_) {
         facets_.clear();
         body.near(centre, radius, facets_);

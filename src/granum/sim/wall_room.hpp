@@ -17,7 +17,7 @@ class WallRoom
     bool operator()(Vec3 const& centre, double radius);
 
   private:
-    geometry::Chamber chamber_;
+    geometry::Chamber chamber_, outline_;  // with and without the bodies in it
     std::vector<geometry::BodySearch> bodies_;
     std::vector<std::uint32_t> facets_;
     geometry::BodySearch::Scratch scratch_;

@@ -1,6 +1,7 @@
 // A droplet parcel in flight: `weight` equal real droplets of solution or suspension.
 #pragma once
 
+#include "granum/law/dispersion/turbulence.hpp"
 #include "granum/material/moist_air.hpp"
 #include "granum/math/vec3.hpp"
 
@@ -32,6 +33,7 @@ struct Droplet
     double water = 0, solute = 0;  //!< kg of one real droplet
     double temperature = 0;        //!< K, uniform
     double age = 0, path = 0;      //!< s, m
+    law::dispersion::Eddy eddy{};  //!< of the gas that it sees
     double delay = 0;              //!< s of the coming step that pass before it flies; negative: s that it lags behind
 
     //! kg of all real droplets.

@@ -41,6 +41,55 @@ Vec3 move(Droplet& droplet, double diameter, Seen const& seen, Vec3 const& gravi
     return mass * (before + dt * gravity - droplet.velocity);
 }
 
+//! Three standard normal numbers.
+Vec3 normals(base::Random& random)
+{
+    double const x = random.normal(), y = random.normal(), z = random.normal();
+    return {x, y, z};
+}
+
+//! What a droplet sees of the turbulence, and how long its hops may be for it.
+class Fluctuations
+{
+  public:
+    Fluctuations(FlightSettings const& settings, Droplet& droplet, double dt, std::uint32_t step)
+        : law_(settings.dispersion),
+          on_(!std::holds_alternative<law::dispersion::NoDispersion>(law_)),
+          random_(settings.seed, base::Purpose::dispersion, droplet.id, step),
+          least_(dt / most_hops)
+    {
+        // As if it had been in the gas for long.
+        if (on_ && droplet.age == 0) droplet.eddy = {normals(random_), 0};
+    }
+
+    //! The hop, at most `wanted` s, for which the droplet sees one velocity.
+    double hop(Seen const& seen, double wanted) const
+    {
+        if (!on_ || seen.turbulent_energy <= 0) return wanted;
+        double const memory = quarter_of_memory * seen.turbulent_energy / seen.dissipation;
+        return std::min(wanted, std::max(memory, least_));
+    }
+    //! Adds u' to the gas that is seen.
+    void add(Seen& seen, Droplet& droplet, double h)
+    {
+        if (!on_) return;
+        law::dispersion::Turbulence const gas{.energy = seen.turbulent_energy,
+                                              .dissipation = seen.dissipation,
+                                              .gradient = seen.energy_gradient,
+                                              .slip = math::norm(seen.gas_velocity - droplet.velocity)};
+        seen.gas_velocity += law::dispersion::fluctuation(law_, droplet.eddy, gas, h, normals(random_));
+    }
+
+  private:
+    static constexpr int most_hops = 50;
+    static constexpr double quarter_of_memory = 0.07;  // of k/epsilon
+
+    law::dispersion::Any const& law_;
+    bool on_;
+    base::Random random_;
+    double least_;
+};
+
 void lose(Losses& losses, Droplet const& droplet, Liquid const& liquid)
 {
     losses.solids += droplet.solids();
@@ -91,13 +140,15 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
     for (std::size_t n = 0; n < droplets.size(); ++n) {
         Droplet droplet = droplets[n];
         base::Random random(settings.seed, base::Purpose::capture, droplet.id, step);
+        Fluctuations fluctuations(settings, droplet, dt, step);
         double left = dt - droplet.delay;
         droplet.delay = 0;
         bool gone = false;
         while (left > 0 && !gone) {
-            Seen const seen = around.seen(droplet.position);
+            Seen seen = around.seen(droplet.position);
             double const fastest = std::max(math::norm(droplet.velocity), math::norm(seen.gas_velocity));
-            double const h = std::min(left, settings.longest_hop / std::max(fastest, 1e-3));
+            double const h = fluctuations.hop(seen, std::min(left, settings.longest_hop / std::max(fastest, 1e-3)));
+            fluctuations.add(seen, droplet, h);
             double const diameter = droplet.diameter(liquid);
             Vec3 const place = droplet.position;
             double const slip = math::norm(droplet.velocity - seen.gas_velocity);
@@ -107,8 +158,8 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
             around.give(place, given);
             left -= h > 0.999999 * left ? left : h;
 
-            if (!chamber.inside(droplet.position)) {
-                lose(droplet.position.z >= chamber.height() ? outcome.overspray : outcome.walls, droplet, liquid);
+            if (!chamber.inside(droplet.position) || chamber.parted(place, droplet.position)) {
+                lose(droplet.position.z >= chamber.top() ? outcome.overspray : outcome.walls, droplet, liquid);
                 gone = true;
             } else if (droplet.water < dust * droplet.solute) {
                 lose(outcome.overspray, droplet, liquid);  // dried in flight: dust

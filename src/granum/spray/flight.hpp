@@ -8,6 +8,7 @@
 #include "granum/base/random.hpp"
 #include "granum/geometry/chamber.hpp"
 #include "granum/law/capture/all.hpp"
+#include "granum/law/dispersion/all.hpp"
 #include "granum/spray/droplet.hpp"
 
 #include <optional>
@@ -18,7 +19,9 @@ namespace granum::spray
 //! Gas and bed at a point.
 struct Seen
 {
-    Vec3 gas_velocity;  //!< m/s, analytic jet included where cells are coarse
+    Vec3 gas_velocity;                             //!< m/s, analytic jet included where cells are coarse
+    double turbulent_energy = 0, dissipation = 0;  //!< k, m2/s2; epsilon, m2/s3
+    Vec3 energy_gradient;                          //!< of k, m/s2
     double temperature = 293.15, vapour_fraction = 0, density = 1.2, viscosity = 1.8e-5;
     double solids_fraction = 0;
 };
@@ -82,6 +85,7 @@ struct FlightSettings
     double pressure = 101325;
     double end_moisture = 0.01;  //!< of the feed's: below it a droplet is dust
     double longest_hop = 0.005;  //!< m that a droplet may move in a sub-step
+    law::dispersion::Any dispersion = law::dispersion::NoDispersion{};
     std::uint32_t seed = 1;
 };
 

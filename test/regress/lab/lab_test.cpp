@@ -228,7 +228,11 @@ TEST_F(Lab, summary_has_all_keys_and_is_what_was_printed)
                             "/performance/share/gas",
                             "/performance/share/exchange",
                             "/performance/share/spray_and_drying",
-                            "/performance/share/output"}) {
+                            "/performance/share/output",
+                            "/performance/gas/us_per_cell_step",
+                            "/performance/gas/bytes_per_cell_step",
+                            "/performance/gas/triad_bytes_per_s",
+                            "/performance/gas/share_of_bandwidth"}) {
         ASSERT_TRUE(run.summary.contains(json::json_pointer(key))) << key;
         if (key != std::string("/schema")) {
             EXPECT_TRUE(run.summary.at(json::json_pointer(key)).is_number()) << key;

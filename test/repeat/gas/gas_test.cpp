@@ -75,6 +75,31 @@ TEST(GasOnRanks, cut_chamber_agrees_with_one_rank)
     EXPECT_LT(vapour, 1e-7);
 }
 
+TEST(GasOnRanks, turbulence_agrees_with_one_rank)
+{
+    for (char const* name : {"k-epsilon", "k-omega-sst", "wale"}) {
+        gas::Settings settings;
+        settings.inlets = {gas::Inlet{.mass_flow = 0.04, .temperature = 353.15, .vapour_fraction = 0.008}};
+        settings.tolerance = 1e-11;
+        settings.turbulence.model = *law::turbulence::All::make(name);
+        settings.turbulence.granules = {.on = name[0] == 'k', .wake = 0.1, .solids_density = 1500};
+        std::array<int, 3> const cells{12, 12, 24};
+        ChamberWithGas alone(gas::laboratory_chamber(), cells, {}, settings, 320, 0.01);
+        ChamberWithGas shared(gas::laboratory_chamber(), cells, {}, settings, 320, 0.01, {}, MPI_COMM_WORLD);
+        for (int step = 0; step < 20; ++step) bed_step(alone, step), bed_step(shared, step);
+        auto const one = alone.solver.eddy_viscosity(alone.state), other = shared.solver.eddy_viscosity(shared.state);
+        double largest = 0, difference = 0;
+        grid::for_each_cell(shared.grid, [&](int i, int j, int k, grid::Index c) {
+            auto const there =
+                alone.grid.at(i + shared.grid.shift[0], j + shared.grid.shift[1], k + shared.grid.shift[2]);
+            largest = std::max(largest, one[there]);
+            difference = std::max(difference, std::abs(other[c] - one[there]));
+        });
+        EXPECT_GT(largest, 1e-6) << name;
+        EXPECT_LT(difference, 1e-3 * largest) << name;
+    }
+}
+
 TEST(GasOnRanks, momentum_of_a_periodic_box_is_kept)
 {
     gas::Settings settings{.outlets = {}, .gravity = {}, .density = 1.2, .viscosity = 1e-4};

@@ -149,4 +149,55 @@ TEST(Exchange, hands_what_the_engine_did_differently_to_the_gas_in_the_next_step
     EXPECT_NEAR(bed.sum(bed.sources.force[0]), -3e-6, 1e-18);
     EXPECT_NEAR(bed.sum(bed.sources.force[2]), 1e-6, 1e-18);
 }
+
+//! Light granules in a box of turbulent gas that moves at 1.5 m/s, and its sigma.
+struct TurbulentBox
+{
+    Bed bed;
+    static gas::Settings settings()
+    {
+        auto out = box_of_still_gas();
+        out.turbulence.model = law::turbulence::KEpsilon{};
+        out.turbulence.energy = 1.5;
+        return out;
+    }
+    static Laws langevin()
+    {
+        auto out = laws(law::drag::Stokes{});
+        out.dispersion = law::dispersion::Langevin{};
+        return out;
+    }
+    TurbulentBox()
+        : bed({.size = {0.04, 0.04, 0.04}}, {4, 4, 4}, {true, true, true}, settings(), langevin(), 0, false, 293.15,
+              {0, 0, 1.5})
+    {
+        bed.granules.keep({.eddies = true});
+        bed.fill(2000, 0.04, 1);
+        for (std::size_t row = 0; row < bed.granules.owned; ++row) {
+            base::Random random(3, base::Purpose::test, bed.granules.id[row], 0);
+            bed.granules.fluctuation[row] = {random.normal(), random.normal(), random.normal()};
+        }
+    }
+};
+
+TEST(Dispersion, of_granules_takes_from_the_gas_what_they_receive)
+{
+    TurbulentBox scene;
+    for (int step = 0; step < 3; ++step) EXPECT_LT(scene.bed.couple(1e-4), 1e-11);
+}
+
+TEST(Dispersion, shows_granules_a_gas_of_the_turbulences_variance)
+{
+    TurbulentBox scene;
+    auto& bed = scene.bed;
+    bed.couple(1e-4);
+    double squares = 0, along = 0;
+    for (std::size_t row = 0; row < bed.granules.owned; ++row) {
+        squares += math::norm2(bed.seen.fluctuation[row]);
+        along += bed.seen.velocity[row].z;
+    }
+    double const number = bed.comm.sum(static_cast<double>(bed.granules.owned));
+    EXPECT_NEAR(bed.comm.sum(squares) / (3 * number), 1, 0.06);  // 2k/3; 6000 components leave 1.8 %
+    EXPECT_NEAR(bed.comm.sum(along) / number, 1.5, 4 / std::sqrt(number));
+}
 }

@@ -2,6 +2,7 @@
 #include "granum/base/error.hpp"
 #include "granum/io/snapshot_file.hpp"
 #include "granum/sim/bed_statistics.hpp"
+#include "granum/sim/box_output.hpp"
 #include "scene/case_text.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,21 @@ TEST(GranulesAlone, carry_no_columns_of_gas_and_process)
     auto const& groups = simulation->granules().groups;
     EXPECT_FALSE(groups.gas || groups.process || groups.parcel);
     EXPECT_EQ(simulation->granules().owned, 50u);
+}
+
+TEST(GranulesAlone, in_a_box_have_the_mean_velocity_of_what_is_inside)
+{
+    // One whole and, its centre on a face of the box, half of another.
+    auto const simulation = scene::simulation_of(
+        box + "[granules]\nstart = \"given\"\ndiameter = \"2 mm\"\ndensity = \"2500 kg/m3\"\n" +
+        "[[output.box]]\nlower = [\"10 mm\", \"10 mm\", \"10 mm\"]\nupper = [\"20 mm\", \"20 mm\", \"20 mm\"]\n" +
+        scene::granule_text({.position = {0.015, 0.015, 0.015}, .velocity = {0.5, 0, 1}}) +
+        scene::granule_text({.position = {0.015, 0.015, 0.020}, .velocity = {0.5, 0.3, -1}}));
+    auto const inside = box_contents(*simulation).at(0);
+    EXPECT_NEAR(inside.velocity.x, 0.5, 1e-12);
+    EXPECT_NEAR(inside.velocity.y, 0.1, 1e-12);
+    EXPECT_NEAR(inside.velocity.z, 1.0 / 3, 1e-12);
+    EXPECT_NEAR(inside.solids_fraction, 1.5 * 4.18879e-9 / 1e-6, 1e-7);
 }
 
 TEST(GranulesAlone, of_two_batches_have_their_masses_sizes_and_materials)
