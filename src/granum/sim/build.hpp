@@ -27,7 +27,7 @@ particle::Groups column_groups(Case const& data);
 
 gas::Settings gas_settings(Case const& data);  //!< gas_settings.cpp
 gas::Opening gas_opening(Case const& data, OpeningCase const& one);
-grid::Lines gas_lines(Case const& data);       //!< faces of the gas cells
+grid::Lines gas_lines(Case const& data);  //!< faces of the gas cells
 //! What passes heat between granules, and from them to walls, beside the gas that flows.
 coupling::Conduction conduction(Case const& data, par::Communicator const& comm);
 coupling::Laws exchange_laws(Case const& data);
