@@ -174,7 +174,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
         }
     }
     if (simulation.has_gas()) {
-        auto const heat = simulation.heat();
+        auto const& heat = performance.heat;
         out["heat"] = {{"between_granules_by_contact_J", heat.contacts},
                        {"between_granules_by_gas_J", heat.film},
                        {"granules_to_walls_by_contact_J", heat.wall_contacts},
@@ -195,6 +195,8 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
         performance.wall > 0 ? static_cast<double>(performance.granule_steps) / performance.wall : 0;
     for (std::size_t s = 0; s < performance.seconds.size(); ++s)
         out["performance"]["share"][std::string(base::stage_names[s])] = total > 0 ? performance.seconds[s] / total : 0;
+    for (std::size_t s = 0; s < performance.seconds.size(); ++s)
+        out["performance"]["seconds"][std::string(base::stage_names[s])] = performance.seconds[s];
     if (auto const& gas = performance.gas; gas.cell_steps > 0) {
         double const seconds = performance.seconds[static_cast<std::size_t>(base::Stage::gas)];
         out["performance"]["gas"] = {{"us_per_cell_step", 1e6 * seconds / gas.cell_steps},
