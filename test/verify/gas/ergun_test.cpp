@@ -88,8 +88,12 @@ Passed passed_by_hot_gas(int ratio)
             for (int i = 0; i < across * in_cell; ++i)
                 for (double const middle : {0.25, 0.75})
                     text += scene::granule_text({.position = edge * math::Vec3{i + middle, j + middle, k + middle}});
-    auto const simulation = scene::simulation_of(text);
-    for (int step = 0; step < 300; ++step) simulation->step(1e-3);
+    auto data = scene::case_of(text);
+    for (auto& one : data.granules.given) one.count = std::pow(ratio, 3);  // in a case each is a single granule
+    par::Communicator const alone(MPI_COMM_SELF);
+    auto const simulation = std::make_unique<sim::Simulation>(std::move(data), alone);
+    for (double const end = 0.2; simulation->time() < end * (1 - 1e-12);)
+        simulation->step(std::min(5e-4, end - simulation->time()));
     auto const& grid = simulation->grid();
     auto const& gas = simulation->gas();
     return {gas.pressure[grid.at(1, 1, 0)] - gas.pressure[grid.at(1, 1, along - 1)],
@@ -100,16 +104,17 @@ TEST(PackedBed, of_parcels_does_to_the_gas_what_its_granules_do)
 {
     auto const granules = passed_by_hot_gas(1);
     EXPECT_GT(granules.pressure, 100);
-    EXPECT_GT(granules.bed, 294);
+    EXPECT_GT(granules.bed, 293.17);
     for (int const ratio : {2, 4}) {
         auto const parcels = passed_by_hot_gas(ratio);
         auto const say = [&](char const* what) {
             return fmt::format("bed at rest as parcels of {} granules: {}", ratio * ratio * ratio, what);
         };
         verify::relative("N19", say("pressure drop against that of the granules, Pa"), granules.pressure,
-                         parcels.pressure, 1e-9);
-        verify::relative("N19", say("bed temperature, K"), granules.bed, parcels.bed, 1e-9);
-        verify::relative("N19", say("gas that leaves, K"), granules.outlet, parcels.outlet, 1e-9);
+                         parcels.pressure, 2e-4);
+        verify::relative("N19", say("rise of the bed temperature, K"), granules.bed - 293.15, parcels.bed - 293.15,
+                         1e-3);
+        verify::relative("N19", say("gas that leaves, K"), granules.outlet, parcels.outlet, 2e-5);
     }
 }
 }
