@@ -90,6 +90,7 @@ struct Carried
     FaceField conductance;  //!< per s and unit of x
     Field source, sink;
     std::vector<double> at_inlets, at_outlets;  //!< x of what enters there
+    bool entering_bounds = true;                //!< what enters is no new extreme for the cell behind it
     FaceField passed;                           //!< result: total flux through lower faces
 };
 

@@ -131,7 +131,7 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
                  {&low_share[0], &low_share[1], &low_share[2]}},
                 x, earlier);
         std::array<double, 2> seen{range.most, -range.least};
-        for (std::size_t k = 0; k < settings.inlets.size(); ++k)
+        for (std::size_t k = 0; k < settings.inlets.size() && what.entering_bounds; ++k)
             if (settings.inlets[k].mass_flow > 0)
                 seen = {std::max(seen[0], what.at_inlets[k]), std::max(seen[1], -what.at_inlets[k])};
         for (auto const& run : cells)
@@ -141,8 +141,9 @@ void Solver::Inside::carry(Carried& what, Field& x, Range& range, double dt)
         Field& room = rows.partial;
         for (auto const& run : cells)
             for (Index c = run.first; c < run.end; ++c) room[c] = what.capacity[c] / dt;
+        FaceField const& known = what.entering_bounds ? bounding : solved;
         limit.scale(grid, cells, x, earlier, room, {&solved[0], &solved[1], &solved[2]},
-                    {&bounding[0], &bounding[1], &bounding[2]}, range.least, range.most);
+                    {&known[0], &known[1], &known[2]}, range.least, range.most);
     }
 
     // What passed each face at the solution; contents change by that and by nothing else.
@@ -208,6 +209,9 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
         conduct(property);
         it.content = state.tracer;
         std::fill(it.source.begin(), it.source.end(), 0.0);
+        // Gas of another molar mass is many times as heavy: the projection, which knows the gas of the step before
+        // only, needs the first cell behind an inlet to follow slowly.
+        it.entering_bounds = !set.tracer->molar_mass;
         at_openings([](auto const& in) { return in.tracer_fraction; },
                     [](auto const& out) { return out.ambient_tracer_fraction; });
         carry(it, state.tracer_fraction, state.tracer_fractions, dt);
@@ -223,6 +227,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     conduct(property);
     it.content = state.vapour;
     it.source = sources.vapour;
+    it.entering_bounds = !set.molar_mass && !set.vapour_molar_mass;
     at_openings([](auto const& in) { return in.vapour_fraction; },
                 [](auto const& out) { return out.ambient_vapour_fraction; });
     carry(it, state.vapour_fraction, state.vapour_fractions, dt);
@@ -246,6 +251,7 @@ void Solver::Inside::carry_scalars(State& state, Sources const& sources, double 
     refresh({&it.capacity});
     it.content = sensible;
     it.sink = sources.heat_coefficient;
+    it.entering_bounds = true;
     add_walls(state, it);
     add_pressure_work(state, dt, it);
     at_openings([](auto const& in) { return in.temperature - math::zero_celsius; },

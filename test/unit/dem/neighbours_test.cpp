@@ -1,4 +1,5 @@
 #include "granum/dem/neighbours.hpp"
+#include "granum/base/error.hpp"
 #include "granum/base/random.hpp"
 #include "scene/granules.hpp"
 
@@ -96,5 +97,52 @@ TEST(NeighbourList, made_anew_before_a_step_was_done_is_as_wide_as_before)
     double const width = scene.engine->skin();
     for (int again = 0; again < 3; ++again) scene.engine->prepare(scene.granules);
     EXPECT_EQ(scene.engine->skin(), width);
+}
+
+// Each pair, and each wall beside a granule, that is closer than the gap, at whatever time one looks.
+TEST(Sight, knows_every_surface_within_its_gap_while_granules_move)
+{
+    scene::Scene scene(scene::limestone);
+    double const radius = 1e-3, edge = 0.014, gap = 0.2e-3;
+    scene.enclose({0, 0, 0}, {edge, edge, edge});
+    scene.settings.walls.pop_back(), scene.settings.walls.pop_back();  // along z the scene repeats itself
+    scene.settings.periodic = {false, false, true};
+    scene.settings.sight = gap;
+    for (int k = 0; k < 5; ++k)
+        for (int j = 0; j < 5; ++j)
+            for (int i = 0; i < 5; ++i) {
+                base::Random random(3, base::Purpose::test, scene.granules.rows(), 0);
+                scene.add({2.6e-3 * i + 1.7e-3, 2.6e-3 * j + 1.7e-3, 2.6e-3 * k + 1.7e-3},
+                          {random.normal(), random.normal(), random.normal()}, radius * (1 - 0.2 * random.uniform()),
+                          2500);
+            }
+    scene.prepare();
+    using Pair = std::pair<dem::Id, dem::Id>;
+    std::size_t apart_seen = 0;
+    for (int look = 0; look < 40; ++look) {
+        scene.run(200, 2e-7);
+        auto const& g = scene.granules;
+        std::set<Pair> expected, found, walls_expected, walls_found;
+        for (std::size_t a = 0; a < g.owned; ++a) {
+            for (std::size_t b = 0; b < g.owned; ++b) {
+                Vec3 apart = g.position[a] - g.position[b];
+                apart.z -= edge * std::round(apart.z / edge);
+                if (g.id[a] < g.id[b] && norm(apart) < g.radius[a] + g.radius[b] + gap)
+                    expected.insert({g.id[a], g.id[b]});
+            }
+            for (dem::Id wall = 0; wall < 4; ++wall) {
+                double const x = wall < 2 ? g.position[a].x : g.position[a].y, distance = wall % 2 == 0 ? x : edge - x;
+                if (distance < g.radius[a] + gap) walls_expected.insert({g.id[a], wall});
+            }
+        }
+        for (auto const& contact : scene.engine->contacts(gap)) {
+            (contact.wall ? walls_found : found).insert({contact.low, contact.high});
+            apart_seen += contact.overlap < 0;
+        }
+        EXPECT_EQ(found, expected) << look;
+        EXPECT_EQ(walls_found, walls_expected) << look;
+    }
+    EXPECT_GT(apart_seen, 500u);
+    EXPECT_THROW(static_cast<void>(scene.engine->contacts(2 * gap)), base::Error);
 }
 }

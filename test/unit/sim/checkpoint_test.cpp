@@ -201,7 +201,8 @@ TEST(Continued, no_member_was_added_to_the_state_without_a_thought)
     EXPECT_EQ(sizeof(spray::Droplet), 144u);
     EXPECT_EQ(sizeof(gas::State), 21 * sizeof(grid::Field) + 9 * sizeof(double));
     EXPECT_EQ(sizeof(sim::SprayTotals), 72u);
-    EXPECT_EQ(sizeof(gas::Balance), 96u);
+    EXPECT_EQ(sizeof(gas::Balance), 96u) << "the sweeps of a step are its cost, not its state";
+    EXPECT_EQ(sizeof(sim::HeatTotals), 48u);
     EXPECT_EQ(sizeof(sim::Sample),
               8 + sizeof(sim::Readings) + sizeof(sim::SprayTotals) + sizeof(sim::BedStatistics) + sizeof(sim::Traffic));
     EXPECT_EQ(sizeof(sim::Traffic), 48u);

@@ -141,4 +141,35 @@ TEST(OneSphere, on_a_hot_wall_follows_the_heat_of_its_contact)
     verify::below("E01", "sphere on a hot wall: energy missing over what passed", 1e-6,
                   simulation->ledgers().energy.relative_error());
 }
+
+TEST(OneSphere, that_radiates_cools_as_the_closed_form_and_its_gas_gets_the_heat)
+{
+    // dT/dt = k (T_s^4 - T^4), k = sigma e A / (m c), integrated to t(T); what it sees around it is the gas.
+    double const radius = 1e-3, density = 2000, capacity = 500, around = 300, first = 1000, emissivity = 0.8;
+    double const k = 5.670374e-8 * emissivity * 3 / (radius * density * capacity);
+    auto const simulation =
+        scene::simulation_of(verify::silent_box({3, 3, 3}, capacity, "smoothing = \"0 mm\"\n", "",
+                                                fmt::format("emissivity = {}\n", emissivity)) +
+                             verify::still_text({Still{{1.5, 1.5, 1.5}, radius, "granule", density, first}}));
+    auto const time_of = [&](double t) {
+        auto const part = [&](double x) {
+            return std::log(std::abs((around + x) / (around - x))) + 2 * std::atan(x / around);
+        };
+        return (part(t) - part(first)) / (4 * k * around * around * around);
+    };
+    for (double const t : {900.0, 700.0, 500.0}) {
+        double const goal = time_of(t);
+        while (simulation->time() < goal * (1 - 1e-9))
+            simulation->step(std::min(time_of(900) / 400, goal - simulation->time()));
+        verify::absolute(
+            "E09",
+            fmt::format("sphere of 1000 K that radiates into gas of 300 K, after {:.3g} s: temperature, K", goal), t,
+            verify::temperatures(*simulation)[0], 0.5);
+    }
+    verify::below("E09", "sphere that radiates: energy missing over what passed", 1e-6,
+                  simulation->ledgers().energy.relative_error());
+    double const lost = capacity * density * 4 / 3 * math::pi * std::pow(radius, 3) * 500;
+    verify::relative("E09", "sphere that radiates: heat radiated over what it lost", 1,
+                     simulation->heat().radiation / lost, 1e-3);
+}
 }

@@ -113,8 +113,8 @@ TEST(Drop, keeps_the_d2_law)
         auto drop = drop_of(life.d0, life.surface + zero_celsius, settings);
         for (int step = 0; step < 4000; ++step) spray::evaporate(drop, settings, air, 0, life.seconds / 8000);
         verify::absolute("H10",
-                         fmt::format("drop of {:.3g} um in air of {} degC: diameter at half its life, share",
-                                     1e6 * life.d0, life.celsius),
+                         fmt::format("drop of {:.2g} mm in air of {} degC: diameter at half its life, share",
+                                     1e3 * life.d0, life.celsius),
                          0.70711, drop.diameter(settings.liquid) / life.d0, 2e-3);
     }
 }

@@ -32,14 +32,14 @@ inline std::string still_text(std::vector<Still> const& granules)
 
 //! A closed box of gas that conducts next to nothing, so that granules exchange heat by the other ways only.
 inline std::string silent_box(Vec3 const& size, double heat_capacity, std::string const& gas,
-                              std::string const& contact)
+                              std::string const& contact, std::string const& granules = "")
 {
     return "gravity = [\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"]\n[apparatus]\nshape = \"box\"\nsize = " +
            scene::vector_text(size, "m") +
            fmt::format(
                "\n[granules]\ndiameter = \"1 mm\"\ndensity = \"1000 kg/m3\"\nheat_capacity = \"{} J/kg/K\"\n"
-               "frozen = true\nstart = \"given\"\n[start]\ngas_temperature = \"300 K\"\n",
-               heat_capacity) +
+               "frozen = true\nstart = \"given\"\n{}[start]\ngas_temperature = \"300 K\"\n",
+               heat_capacity, granules) +
            "[gas]\nclosed = true\ndensity = \"1 kg/m3\"\nconductivity = \"1e-13 W/m/K\"\ncells = [1, 1, 1]\n" + gas +
            "[contact]\nyoungs_modulus = \"10 MPa\"\n" + contact + "[time]\nduration = \"1 s\"\ngas_step = \"1000 s\"\n";
 }
