@@ -272,42 +272,62 @@ def fluidising_velocity(voidage, diameter, solid, gas, viscosity):
     return low
 
 
-def umf(folder):
-    section = Section("Minimum fluidisation", "Mueller's bed as its air is turned down, 0.5 s at each velocity from the state "
-                      "before, pressure drop of the second half. U_mf is where the line a U + b U^2 through the fixed bed's "
-                      "points (below 0.9 of the weight) meets the weight.")
-    text = (CASES / "mueller.toml").read_text()
-    text = text[:text.index("[[output.box]]")]
-    text = text.replace('duration = "12 s"', 'duration = "0.5 s"')
+def turned_down(folder, text, number, velocities):
+    """Runs of a case at one velocity after the other, each from the state that the one before left."""
     folder.mkdir(parents=True, exist_ok=True)
-    points, before = [], None
-    for velocity in (0.60, 0.50, 0.45, 0.40, 0.35, 0.30, 0.27, 0.24, 0.20, 0.16, 0.12, 0.08):
-        own = text.replace('velocity = "0.6 m/s"', f'velocity = "{velocity} m/s"')
+    before = None
+    for velocity in velocities:
+        own = re.sub(r'velocity = "[0-9.]+ m/s"', f'velocity = "{velocity} m/s"', text)
         if before is not None:
-            own = own.replace("number = 9240", f'start = "given"\nrun = "{before.name}"')
-        own += ('[[output.box]]\nname = "bed"\nlower = ["0 mm", "0 mm", "4 mm"]\nupper = ["44 mm", "10 mm", "24 mm"]\n')
+            own = own.replace(f"number = {number}", f'start = "given"\nrun = "{before.name}"')
         case = folder / f"u-{velocity:.2f}.toml"
         case.write_text(own)
         of = run(case, folder / f"u-{velocity:.2f}")
         before = of.folder
-        drop = Mean(of.after("timeseries.csv", "pressure_drop", 0.25))
-        solids = statistics.fmean(of.after("boxes.csv", "bed_solids_fraction", 0.25))
-        points.append((velocity, drop.value, solids))
-    weight = of.summary["bed"]["weight_over_area_Pa"]
-    fixed = [(u, p) for u, p, _ in points if p < 0.9 * weight]
-    solids = statistics.fmean(s for _, p, s in points if p < 0.9 * weight)
-    # Least squares of p = a u + b u^2.
-    s2, s3, s4 = (sum(u**n for u, _ in fixed) for n in (2, 3, 4))
-    t1, t2 = (sum(p * u**n for u, p in fixed) for n in (1, 2))
+        yield velocity, of
+
+
+def crossing(points, level):
+    """Where the line p = a u + b u^2 through points (least squares) meets a level."""
+    s2, s3, s4 = (sum(u**n for u, _ in points) for n in (2, 3, 4))
+    t1, t2 = (sum(p * u**n for u, p in points) for n in (1, 2))
     a, b = (t1 * s4 - t2 * s3) / (s2 * s4 - s3 * s3), (s2 * t2 - s3 * t1) / (s2 * s4 - s3 * s3)
-    met = (-a + math.sqrt(a * a + 4 * b * weight)) / (2 * b) if b > 0 else weight / a
+    return (-a + math.sqrt(a * a + 4 * b * level)) / (2 * b) if b > 0 else level / a
+
+
+def umf(folder):
+    section = Section("Minimum fluidisation", "Mueller's granules as their air is turned down, 0.5 s at each velocity from the state "
+                      "before, pressures of the second half. U_mf is where the line a U + b U^2 through the fixed bed's points "
+                      "(below 0.9 of the weight) meets the weight: once within a column 12 mm x 12 mm whose sides repeat "
+                      "themselves, between two taps 32 mm apart, where packing and force balance are those of its middle; and once of "
+                      "Mueller's whole bed, which is eight cells deep, with walls and a surface.")
+    velocities = (0.50, 0.40, 0.35, 0.30, 0.27, 0.24, 0.20, 0.16, 0.12, 0.08)
+    points = []
+    for velocity, of in turned_down(folder / "column", (CASES / "column.toml").read_text(), 5000, velocities):
+        low, high = (statistics.fmean(of.after("boxes.csv", f"{tap}_gas_pressure", 0.25)) for tap in ("low", "high"))
+        solids = statistics.fmean(of.after("boxes.csv", "between_solids_fraction", 0.25))
+        points.append((velocity, (low - high) / 0.032 - 1.2 * 9.81, solids))
+    solids = points[-1][2]
+    weight = solids * (1000 - 1.2) * 9.81
+    met = crossing([(u, p) for u, p, _ in points if p < 0.9 * weight], weight)
     demanded = fluidising_velocity(1 - solids, 1.2e-3, 1000, 1.2, 1.8e-5)
-    section.row(f"U_mf by the pressure drop, m/s (solids {solids:.3f})", f"{demanded:.4f} +- 3 %",
+    section.row(f"column: U_mf, m/s (solids {solids:.3f})", f"{demanded:.4f} +- 3 %",
                 "force balance, the same drag law, the same packing", f"{met:.4f}", abs(met / demanded - 1) < 0.03)
-    section.row("U_mf, measured, m/s", "0.3", "Mueller et al. (recalled)", f"{met:.3f}")
     for u, p, s in points:
-        section.row(f"pressure drop at {u:.2f} m/s, Pa (solids {s:.3f})", f"{weight:.1f} when fluidised" if p >= 0.9 * weight else "", "",
-                    f"{p:.1f}")
+        section.row(f"column: pressure gradient at {u:.2f} m/s, Pa/m (solids {s:.3f})",
+                    f"{s * (1000 - 1.2) * 9.81:.0f}" if p > 0.9 * weight else "", "weight" if p > 0.9 * weight else "", f"{p:.0f}")
+    text = (CASES / "mueller.toml").read_text()
+    text = text[:text.index("[[output.box]]")].replace('duration = "12 s"', 'duration = "0.5 s"')
+    text += '[[output.box]]\nname = "bed"\nlower = ["0 mm", "0 mm", "4 mm"]\nupper = ["44 mm", "10 mm", "24 mm"]\n'
+    whole = []
+    for velocity, of in turned_down(folder, text, 9240, (0.60, 0.50, 0.45, *velocities[1:])):
+        whole.append((velocity, Mean(of.after("timeseries.csv", "pressure_drop", 0.25)).value))
+    weight = of.summary["bed"]["weight_over_area_Pa"]
+    met = crossing([(u, p) for u, p in whole if p < 0.9 * weight], weight)
+    section.row("whole bed: U_mf, m/s", "0.3", "Mueller et al., measured (recalled)", f"{met:.3f}", abs(met / 0.3 - 1) < 0.15)
+    for u, p in whole:
+        section.row(f"whole bed: pressure drop at {u:.2f} m/s, Pa", f"{weight:.1f}" if p >= 0.9 * weight else "",
+                    "weight" if p >= 0.9 * weight else "", f"{p:.1f}")
     return section
 
 
