@@ -1,5 +1,5 @@
 // The mistakes that show where openings and nozzles meet the solids of an apparatus and the bodies in it.
-#include "granum/geometry/region.hpp"
+#include "granum/geometry/bodies_in_chamber.hpp"
 #include "granum/sim/case_sections.hpp"
 #include "granum/sim/opening_area.hpp"
 
@@ -26,6 +26,20 @@ std::string cover(geometry::Chamber const& chamber, OpeningCase const& at)
     double const depth = 1e-6 * (high[at.direction] - low[at.direction]);
     middle[at.direction] = at.upper ? high[at.direction] - depth : low[at.direction] + depth;
     return chamber.region->name(chamber.region->nearest_solid(middle));
+}
+
+//! A box in which granules are to appear.
+void check_place(io::CaseFile& file, geometry::Chamber const& chamber, std::string const& key, RegionCase const& box)
+{
+    if (file.wrong(key + ".lower") || file.wrong(key + ".upper")) return;
+    geometry::Solid const own = geometry::Box{box.lower, box.upper};
+    auto const open =
+        geometry::common_place([&](Vec3 const& x) { return -geometry::surface_distance(own, x).distance; },
+                               [&](Vec3 const& x) { return chamber.region->distance(x); }, {box.lower, box.upper}, 0);
+    if (open) return;
+    Vec3 const middle = 0.5 * (box.lower + box.upper);
+    file.mistake(key, "has no open place: its middle is " + where_in_bodies(chamber, middle),
+                 {"give lower and upper corners around the place where granules shall appear"});
 }
 
 void check_opening(io::CaseFile& file, Case const& data, std::string const& key, char const* kind,
@@ -59,7 +73,11 @@ void check_opening(io::CaseFile& file, Case const& data, std::string const& key,
 
 void check_against_bodies(io::CaseFile& file, Case const& data)
 {
-    if (!data.chamber.region || !data.gas.present) return;
+    if (!data.chamber.region) return;
+    if (data.granules.region) check_place(file, data.chamber, "granules.region", *data.granules.region);
+    for (std::size_t k = 0; k < data.feeds.size(); ++k)
+        check_place(file, data.chamber, fmt::format("feed[{}]", k), data.feeds[k].region);
+    if (!data.gas.present) return;
     bool const told = file.has("inlet") || file.has("outlet");
     for (std::size_t k = 0; k < data.gas.inlets.size(); ++k)
         check_opening(file, data, told ? fmt::format("inlet[{}]", k) : "gas", "inlet", data.gas.inlets[k].at);

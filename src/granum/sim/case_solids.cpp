@@ -82,7 +82,7 @@ void draw(io::CaseFile& file, std::string const& key, Region const& region, doub
         }
     } catch (base::CaseError const& error) {
         file.mistake(file.has("apparatus.resolution") ? "apparatus.resolution" : key,
-                     "makes walls that granules cannot be given: " + error.mistakes.front().what,
+                     "cannot be drawn as a wall for granules: it " + error.mistakes.front().what,
                      {fmt::format("walls are drawn to {:.3g} mm: give apparatus.resolution half of the thinnest wall",
                                   1e3 * resolution)});
     }

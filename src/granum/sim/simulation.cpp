@@ -6,6 +6,7 @@
 #include "granum/grid/build.hpp"
 #include "granum/particle/rows.hpp"
 #include "granum/sim/build.hpp"
+#include "granum/sim/opening_area.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,6 +70,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     if (case_.gas.present) {
         if (!saved && comm_.size() > 1) share_space(partition(granules_.position.values, {}));
         grid_ = grid::build(grid::openness(case_.chamber), lines_, grid::layout(*partition_, lines_), comm_);
+        if (case_.chamber.region) check_openings(case_, grid_, comm_);
         make_gas();
         if (!saved) start_gas();
     }

@@ -15,7 +15,7 @@ using namespace granum;
 
 //! Granules on a lattice that is a little out of order, at the bottom of a box with hot gas from below; the gas comes
 //! faster than they fall, at one side more of them lie.
-std::string bed(int steps_between_shares)
+std::string bed(int steps_between_shares, std::string const& more)
 {
     std::string text = fmt::format(R"(
 [apparatus]
@@ -28,7 +28,7 @@ humidity = "8 g/kg"
 velocity = "1.2 m/s"
 tolerance = 1e-12
 rebalance_every = {}
-[granules]
+{}[granules]
 diameter = "2 mm"
 density = "1500 kg/m3"
 [contact]
@@ -40,7 +40,7 @@ bed_temperature = "20 degC"
 [time]
 duration = "1 s"
 )",
-                                   steps_between_shares);
+                                   steps_between_shares, more);
     for (int k = 0; k < 12; ++k)
         for (int j = 0; j < 7; ++j)
             for (int i = 0; i < (k < 6 ? 11 : 5); ++i) {
@@ -78,10 +78,11 @@ std::vector<Granule> all_granules(sim::Simulation& simulation, par::Communicator
     return all;
 }
 
-TEST(BedOnRanks, agrees_with_one_rank_after_a_hundred_steps)
+//! A hundred steps on one rank and on several; `more` are lines of [gas].
+void compare(std::string const& more)
 {
     par::Communicator const alone(MPI_COMM_SELF), world;
-    sim::Simulation one(scene::case_of(bed(0)), alone), several(scene::case_of(bed(20)), world);
+    sim::Simulation one(scene::case_of(bed(0, more)), alone), several(scene::case_of(bed(20, more)), world);
     double const dt = 2e-4;
     std::vector<long> cells{static_cast<long>(several.gas().mass.size())};
     bool moved = false;
@@ -134,5 +135,15 @@ TEST(BedOnRanks, agrees_with_one_rank_after_a_hundred_steps)
     for (auto const* ledger : {&several.ledgers().solids, &several.ledgers().water, &several.ledgers().energy})
         EXPECT_LT(ledger->relative_error(), ledger->bar) << ledger->name;
     EXPECT_LT(several.ledgers().momentum, several.ledgers().momentum_bar);
+}
+
+TEST(BedOnRanks, agrees_with_one_rank_after_a_hundred_steps)
+{
+    compare("");
+}
+
+TEST(BedOnRanks, agrees_with_one_rank_where_granules_see_turbulence_and_damp_it)
+{
+    compare("turbulence = \"k-epsilon\"\ngranule_turbulence = true\ngranule_wake = 0.1\ndispersion = \"langevin\"\n");
 }
 }

@@ -89,6 +89,9 @@ TEST(KEpsilon, makes_what_shear_makes_and_loses_its_dissipation)
     EXPECT_NEAR(budget.lost, 1.5, 1e-15);
     EXPECT_NEAR(budget.rate_made, 1.44 * 1.5 * 0.12 * 16, 1e-14);
     EXPECT_NEAR(budget.rate_lost, 1.92 * 1.5, 1e-14);
+    // Quiet gas in strong shear makes ten times what it loses at most.
+    Local const quiet{.slopes = shear(1e4), .viscosity = 1e-5, .energy = 1e-2, .rate = 1e-2};
+    EXPECT_NEAR(model.budget(quiet, model(quiet)).made, 0.1, 1e-14);
     EXPECT_NEAR(model.rate_of(2, 0.1), std::pow(0.09, 0.75) * std::pow(2, 1.5) / 0.1, 1e-14);
 }
 

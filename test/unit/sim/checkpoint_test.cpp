@@ -120,6 +120,44 @@ duration = "1 s"
     for (double const first : {0.02, 0.05}) cut(data, first, first + 0.03);
 }
 
+TEST(Continued, granules_and_gas_around_bodies_end_with_the_same_bits)
+{
+    auto const data = scene::case_of(R"(
+[apparatus]
+shape = "solids"
+[[apparatus.solid]]
+shape = "cone"
+base = ["0 mm", "0 mm", "0 mm"]
+length = "60 mm"
+base_diameter = "30 mm"
+top_diameter = "50 mm"
+[[apparatus.solid]]
+shape = "cylinder"
+base = ["0 mm", "0 mm", "60 mm"]
+length = "40 mm"
+diameter = "50 mm"
+[[internal]]
+shape = "tube"
+base = ["0 mm", "0 mm", "8 mm"]
+length = "40 mm"
+inner_diameter = "16 mm"
+outer_diameter = "18 mm"
+[gas]
+density = "1.2 kg/m3"
+viscosity = "1.8e-5 Pa s"
+velocity = "1 m/s"
+cells = [8, 8, 16]
+[granules]
+diameter = "2 mm"
+density = "600 kg/m3"
+mass = "3 g"
+start = "loose"
+[time]
+duration = "1 s"
+)");
+    cut(data, 0.01, 0.02);
+}
+
 TEST(Continued, a_spray_ends_with_the_same_bits)
 {
     scene::TemporaryFolder const folder;

@@ -1,5 +1,6 @@
 // Droplets fall, evaporate and are captured as closed forms say, and whatever they lose is found with somebody.
 #include "granum/spray/flight.hpp"
+#include "granum/geometry/bodies_in_chamber.hpp"
 #include "granum/law/droplet/evaporation.hpp"
 
 #include <gtest/gtest.h>
@@ -253,6 +254,26 @@ TEST(Flight, through_the_top_is_overspray_and_against_a_wall_is_a_wall_deposit)
         EXPECT_EQ(flight.outcome.overspray.solids, up ? solids : 0);
         EXPECT_EQ(flight.outcome.walls.solids, up ? 0 : solids);
     }
+}
+
+TEST(Flight, ends_at_a_body_that_is_thinner_than_a_hop)
+{
+    // A plate of 1 mm, which droplets at 10 m/s pass in less than a hop.
+    Flight flight;
+    flight.settings.longest_hop = 0.02;
+    flight.settings.gravity = {};
+    flight.settings.liquid = {.density = 1100, .solids_fraction = 0.3};
+    flight.around.everywhere = saturated(25);
+    flight.chamber = geometry::with_bodies(
+        flight.chamber, {geometry::Region("plate", geometry::Box{{0.2, 0.2, 0.5}, {0.8, 0.8, 0.501}})});
+    flight.droplets = {droplet(flight.settings.liquid, 1e-3, 25, {0.5, 0.5, 0.49}, {0, 0, 10}),
+                       droplet(flight.settings.liquid, 1e-3, 25, {0.1, 0.5, 0.49}, {0, 0, 10})};
+    flight.step(0.005);
+    ASSERT_EQ(flight.droplets.size(), 1u) << "one passes beside it";
+    EXPECT_EQ(flight.droplets[0].position.x, 0.1);
+    EXPECT_GT(flight.droplets[0].position.z, 0.53);
+    EXPECT_GT(flight.outcome.walls.solids, 0);
+    EXPECT_EQ(flight.outcome.overspray.solids, 0);
 }
 
 TEST(Flight, through_a_bed_ends_after_the_mean_free_path_of_a_filter)

@@ -22,6 +22,9 @@ struct KEpsilon
     static constexpr bool resolves_walls = false;  //!< holds in the viscous layer too
 
     double c_mu = 0.09, c_1 = 1.44, c_2 = 1.92, sigma_k = 1.0, sigma_epsilon = 1.3;
+    //! Of production over dissipation (own; that of SST): without it quiet gas with a long memory that comes into
+    //! strong shear makes k without measure.
+    double production_limit = 10;
 
     //! Calls visit(name, constant) for all of them.
     template <class Visit>
@@ -29,6 +32,7 @@ struct KEpsilon
     {
         visit("c_mu", c_mu), visit("c_1", c_1), visit("c_2", c_2);
         visit("sigma_k", sigma_k), visit("sigma_epsilon", sigma_epsilon);
+        visit("production_limit", production_limit);
     }
 
     //! Eddy viscosity, m2/s.
@@ -37,7 +41,8 @@ struct KEpsilon
     //! With the eddy viscosity that the gas has.
     Budget budget(Local const& at, double eddy_viscosity) const
     {
-        double const made = eddy_viscosity * at.strain2(), per_time = decay(at.energy, at.rate);
+        double const made = std::min(eddy_viscosity * at.strain2(), production_limit * at.rate);
+        double const per_time = decay(at.energy, at.rate);
         return {.made = made, .lost = per_time, .rate_made = c_1 * made * per_time, .rate_lost = c_2 * per_time};
     }
     Spread spread(Local const&) const { return {1 / sigma_k, 1 / sigma_epsilon}; }
