@@ -131,8 +131,6 @@ void Solver::Inside::carry_eddies(State& state, Sources const& sources, double d
     if (set.granules.on) add_granules(state, sources, dt);
     Field& k = state.energy_of_eddies;
     Field& rate = state.rate_of_eddies;
-    // Stiff sources, more than transport, make what is behind an inlet: there it stays of first order.
-    flow.entering_bounds = false;
     flow.capacity = state.mass;
     flow.flux = state.mass_flux;
     auto const begin = [&](Field const& x, Field const& made, Field const& lost) {
