@@ -103,7 +103,8 @@ void Solver::Inside::add_granules(State const& state, Sources const& sources, do
                 double const lost = 2 * drag / mass * (relaxation / (lagrangian + relaxation));
                 it.made[c] += made;
                 it.granular[c] = lost;
-                double const gain = model.rate_with(made - lost * k, k, rate, granules.rate);
+                // Over the energy with what comes in the step: that at its beginning may be next to nothing.
+                double const gain = model.rate_with(made - lost * k, k + dt * made, rate, granules.rate);
                 (gain > 0 ? it.rate_made[c] : it.rate_lost[c]) += gain > 0 ? gain : -gain / rate;
             }
     });

@@ -97,7 +97,7 @@ TEST(GasOnRanks, turbulence_agrees_with_one_rank)
         });
         largest = shared.comm.max(largest), difference = shared.comm.max(difference);
         EXPECT_GT(largest, 1e-6) << name;
-        EXPECT_LT(difference, 1e-3 * largest) << name;
+        EXPECT_LT(difference, 1e-7 * largest) << name;
     }
 }
 
