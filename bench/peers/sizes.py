@@ -3,7 +3,7 @@
 proportion on one core, and 0.4 million on two.
 
 Started by `./dev bench sizes`. Ends with 1 where a bar is missed, 2 where a program failed. Each round runs every size once,
-from the same state 0.02 s after the gas came on.
+from the same state 0.01 s after the gas came on.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ from places import BUILD, HERE, Failed, run
 
 FOLDER = places.WORK / "sizes"
 GRANUM = BUILD.parent / "app/granum"
-WARM, STEPS, GAS_STEP = 0.02, 25, 4e-4  # s, timed gas steps, s
+WARM, STEPS, GAS_STEP = 0.01, 20, 4e-4  # s, timed gas steps, s
 # Granules, cells across and along; 40 cells high. Three granules to a cell edge.
 SIZES = {100_000: (17, 17), 400_000: (34, 34), 1_600_000: (68, 68)}
 RUNS = [(100_000, 1), (400_000, 1), (400_000, 2), (1_600_000, 1)]

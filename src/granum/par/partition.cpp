@@ -1,6 +1,7 @@
 #include "granum/par/partition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -130,7 +131,7 @@ struct Partition::Balance
         return false;
     }
 
-    // What the points of all ranks fill of a part: it is cut across its longest side, so that ranks have short borders.
+    // What the points of all ranks fill of a part.
     Box bounds(std::vector<std::uint32_t> const& mine, Box const& box) const
     {
         if (comm.sum(static_cast<long>(mine.size())) == 0) return box;
@@ -146,17 +147,39 @@ struct Partition::Balance
         return out;
     }
 
-    // Returns the number of the cut made, or -1 - rank.
+    // How far the work of all ranks lies apart in each direction, m: its standard deviation. A bed is wide and low in a
+    // tall chamber whose cells are little work.
+    Vec3 spread(std::vector<std::uint32_t> const& mine, Box const& box) const
+    {
+        std::array<double, 7> sums{};
+        for (auto const k : mine) {
+            sums[6] += work[k];
+            for (std::size_t d = 0; d < 3; ++d) {
+                double const x = points[k][d] - box.lower[d];
+                sums[d] += work[k] * x;
+                sums[3 + d] += work[k] * x * x;
+            }
+        }
+        comm.sum(sums);
+        if (sums[6] == 0) return box.upper - box.lower;
+        Vec3 out;
+        for (std::size_t d = 0; d < 3; ++d) {
+            double const mean = sums[d] / sums[6];
+            out[d] = std::sqrt(std::max(0.0, sums[3 + d] / sums[6] - mean * mean));
+        }
+        return out;
+    }
+
+    // A part is cut across the direction that its work is spread out in most, so that ranks have short borders. Returns
+    // the number of the cut made, or -1 - rank.
     int divide(std::vector<std::uint32_t> mine, Box const& box, int first_rank, int ranks)
     {
         if (ranks == 1) return -1 - first_rank;
         Box const filled = bounds(mine, box);
+        Vec3 const apart = spread(mine, box);
         std::size_t direction = 0;
         for (std::size_t d = 1; d < 3; ++d)
-            if (can_cut(d, box) &&
-                (!can_cut(direction, box) ||
-                 filled.upper[d] - filled.lower[d] > 1.0000001 * (filled.upper[direction] - filled.lower[direction])))
-                direction = d;
+            if (can_cut(d, box) && (!can_cut(direction, box) || apart[d] > 1.01 * apart[direction])) direction = d;
         int const first_group = ranks / 2;
         double total = 0;
         for (auto const k : mine) total += work[k];
