@@ -288,7 +288,10 @@ def turned_down(folder, text, number, velocities):
 
 
 def crossing(points, level):
-    """Where the line p = a u + b u^2 through points (least squares) meets a level."""
+    """Where the line p = a u + b u^2 through the points of the fixed bed (least squares) meets a level. Points: u and p; fixed
+    are those below all that come to 0.9 of the level."""
+    slowest = min(u for u, p in points if p >= 0.9 * level)
+    points = [(u, p) for u, p in points if u < slowest]
     s2, s3, s4 = (sum(u**n for u, _ in points) for n in (2, 3, 4))
     t1, t2 = (sum(p * u**n for u, p in points) for n in (1, 2))
     a, b = (t1 * s4 - t2 * s3) / (s2 * s4 - s3 * s3), (s2 * t2 - s3 * t1) / (s2 * s4 - s3 * s3)
@@ -309,7 +312,7 @@ def umf(folder):
         points.append((velocity, (low - high) / 0.032 - 1.2 * 9.81, solids))
     solids = points[-1][2]
     weight = solids * (1000 - 1.2) * 9.81
-    met = crossing([(u, p) for u, p, _ in points if p < 0.9 * weight], weight)
+    met = crossing([(u, p) for u, p, _ in points], weight)
     demanded = fluidising_velocity(1 - solids, 1.2e-3, 1000, 1.2, 1.8e-5)
     section.row(f"column: U_mf, m/s (solids {solids:.3f})", f"{demanded:.4f} +- 3 %",
                 "force balance, the same drag law, the same packing", f"{met:.4f}", abs(met / demanded - 1) < 0.03)
@@ -323,7 +326,7 @@ def umf(folder):
     for velocity, of in turned_down(folder, text, 9240, (0.60, 0.50, 0.45, *velocities[1:])):
         whole.append((velocity, Mean(of.after("timeseries.csv", "pressure_drop", 0.25)).value))
     weight = of.summary["bed"]["weight_over_area_Pa"]
-    met = crossing([(u, p) for u, p in whole if p < 0.9 * weight], weight)
+    met = crossing(whole, weight)
     section.row("whole bed: U_mf, m/s", "0.3", "Mueller et al., measured (recalled)", f"{met:.3f}", abs(met / 0.3 - 1) < 0.15)
     for u, p in whole:
         section.row(f"whole bed: pressure drop at {u:.2f} m/s, Pa", f"{weight:.1f}" if p >= 0.9 * weight else "",
