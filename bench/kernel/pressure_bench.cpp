@@ -4,6 +4,7 @@
 // For the own multigrid also the bytes that its loops ask for, against the triad of STREAM (McCalpin) in this process.
 //
 // bench_pressure [REPETITIONS], or on several ranks tools/mpi 2 bench_pressure [REPETITIONS].
+#include "granum/base/bandwidth.hpp"
 #include "granum/solve/pressure.hpp"
 #include "granum/solve/traffic.hpp"
 #include "scene/bed_system.hpp"
@@ -42,19 +43,6 @@ double median(std::vector<double>& values)
     return values[values.size() / 2];
 }
 
-//! GB/s of a rank while all do the same.
-double triad(par::Communicator const& comm)
-{
-    constexpr std::size_t elements = std::size_t{8} << 20;
-    static std::vector<double> a(elements, 0.0), b(elements, 1.5), c(elements, 2.5);
-    comm.barrier();
-    double const start = MPI_Wtime();
-    for (std::size_t i = 0; i < elements; ++i) a[i] = b[i] + 3.0 * c[i];
-    double const taken = comm.max(MPI_Wtime() - start);
-    b[0] = a[elements / 2];  // the result is used, so the loop is not dropped
-    return 24e-9 * static_cast<double>(elements) / taken;
-}
-
 void measure(Size const& size, par::Communicator const& comm, int repetitions)
 {
     math::Vec3 upper;
@@ -85,7 +73,8 @@ void measure(Size const& size, par::Communicator const& comm, int repetitions)
             double const taken = comm.max(MPI_Wtime() - start);
             if (k >= 0) candidate.times.push_back(1e6 * taken / cells);
         }
-        rates.push_back(triad(comm));
+        comm.barrier();
+        rates.push_back(1e-9 * base::triad_rate());
     }
     if (!comm.root()) return;
     for (auto& candidate : candidates) {

@@ -217,9 +217,7 @@ def main():
                         text=ratio.text()))
     judgement, missed = judged(bars)
     sections = {"bed": lines, "speed": speeds, "bars": judgement}
-    print("\n\n".join("\n".join(section) for section in sections.values()))
-    if options.write:
-        page.write("gas", sections)
+    page.show("gas", sections, options.write)
     return 1 if missed else 0
 
 

@@ -144,9 +144,7 @@ def main():
         return 2
     lines, missed = judged([*cost.bars()])
     sections = {"table": cost.table(), "bars": lines, "machine": machine.lines(cost.triad)}
-    print("\n\n".join("\n".join(section) for section in sections.values()))
-    if options.write:
-        page.write("cost", sections)
+    page.show("cost", sections, options.write)
     return 1 if missed else 0
 
 

@@ -50,3 +50,10 @@ def write(part, sections):
         body = "\n".join(lines)
         text = re.sub(re.escape(begin) + ".*?" + re.escape(end), lambda _: f"{begin}\n{body}\n{end}", text, flags=re.DOTALL)
     PAGE.write_text(text)
+
+
+def show(part, sections, keep):
+    """Prints tables and, if they are to be kept, puts them into the page."""
+    print("\n\n".join("\n".join(section) for section in sections.values()))
+    if keep:
+        write(part, sections)

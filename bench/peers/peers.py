@@ -117,9 +117,7 @@ def main():
     lines, missed = judged([*table.bars(), *forces.bars(compared)])
     sections = {"speed": page.speed(table), "forces": page.force_table(compared), "bars": lines,
                 "machine": machine.lines(table.triad)}
-    print("\n\n".join("\n".join(section) for section in sections.values()))
-    if options.write:
-        page.write("peers", sections)
+    page.show("peers", sections, options.write)
     return 1 if missed else 0
 
 

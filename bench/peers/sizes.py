@@ -90,9 +90,7 @@ def main():
     bars.append(Bar("400,000: one core over two, time", ratio.median, RANKS, text=ratio.text()))
     judgement, missed = judged(bars)
     sections = {"sizes": lines, "size bars": judgement}
-    print("\n\n".join("\n".join(section) for section in sections.values()))
-    if options.write:
-        page.write("gas", sections)
+    page.show("gas", sections, options.write)
     return 1 if missed else 0
 
 

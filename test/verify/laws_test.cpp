@@ -7,6 +7,7 @@
 #include "granum/spray/flight.hpp"
 #include "scene/case_text.hpp"
 #include "scene/drag_table.hpp"
+#include "scene/water_drop.hpp"
 #include "table.hpp"
 
 #include <map>
@@ -64,28 +65,11 @@ TEST(Balance, of_the_worked_examples_has_their_drying_potential)
     }
 }
 
-//! A drop of water, but for a trace of solids that gives it an age to end at.
-spray::FlightSettings water()
-{
-    spray::FlightSettings settings;
-    settings.liquid.solids_fraction = 1e-9;
-    settings.liquid.density = material::water_density;
-    settings.gravity = {};
-    return settings;
-}
-
-spray::Droplet drop_of(double diameter, double temperature, spray::FlightSettings const& settings)
-{
-    double const mass = settings.liquid.density * math::pi / 6 * std::pow(diameter, 3);
-    double const solids = settings.liquid.solids_fraction;
-    return {.weight = 1, .water = (1 - solids) * mass, .solute = solids * mass, .temperature = temperature};
-}
-
 TEST(WetBulbDrop, settles_where_measured)
 {
-    auto const settings = water();
+    auto const settings = scene::water();
     spray::Seen const air{.temperature = 30 + zero_celsius, .vapour_fraction = 0.013135};
-    auto drop = drop_of(1e-3, air.temperature, settings);
+    auto drop = scene::drop_of(1e-3, air.temperature, settings);
     for (int step = 0; step < 6000; ++step) spray::evaporate(drop, settings, air, 0, 0.01);
     verify::between("P20", "drop of 1 mm in air of 30 degC, 50 % humidity: steady temperature, degC", 21.5, 22.1,
                     drop.temperature - zero_celsius);
@@ -93,10 +77,10 @@ TEST(WetBulbDrop, settles_where_measured)
 
 TEST(DryingDrop, loses_its_surface_at_the_rate_of_the_d2_law)
 {
-    auto const settings = water();
+    auto const settings = scene::water();
     spray::Seen const air{.temperature = 25 + zero_celsius, .vapour_fraction = 0};
     double const diameter = 1.1e-3;
-    auto drop = drop_of(diameter, 7.15 + zero_celsius, settings);
+    auto drop = scene::drop_of(diameter, 7.15 + zero_celsius, settings);
     double const step = 0.01, time = 400;
     for (int n = 0; n < std::lround(time / step); ++n) spray::evaporate(drop, settings, air, 0, step);
     double const d = drop.diameter(settings.liquid);
@@ -140,14 +124,14 @@ struct Slab : spray::Surroundings
 //! `count` droplets of 0.6 um that enter the slab at 3 m/s; hits after `depth`.
 spray::Outcome shower(Slab& slab, int count, double depth, double hop)
 {
-    auto settings = water();
+    auto settings = scene::water();
     settings.liquid.density = 1100;
     settings.capture = capture::Simple{};
     settings.longest_hop = hop;
     geometry::Chamber const chamber{.shape = geometry::Chamber::Shape::revolution, .profile = {{0, 1}, {1, 1}}};
     std::vector<spray::Droplet> droplets;
     for (int n = 0; n < count; ++n) {
-        auto droplet = drop_of(0.6e-6, 20 + zero_celsius, settings);
+        auto droplet = scene::drop_of(0.6e-6, 20 + zero_celsius, settings);
         droplet.id = static_cast<std::uint64_t>(n);
         droplet.position = {0, 0, Slab::top};
         droplet.velocity = slab.velocity;

@@ -9,8 +9,9 @@ namespace granum::sim
 {
 namespace
 {
-// In steps of a granule without contacts, measured: what a gas step costs for a cell and for a granule.
-constexpr double work_of_cell = 20, work_of_exchange = 6;
+// In steps of a granule without contacts (19 ns with 400,000 granules): what a gas step costs for a cell (1.0 us) and
+// for a granule (0.6 us). Measured by `./dev bench sizes`.
+constexpr double work_of_cell = 50, work_of_exchange = 30;
 constexpr int gas_steps_between_looks = 100;
 constexpr double bearable = 1.1;      // largest work of a rank over the mean
 constexpr double worth_while = 0.95;  // largest work after cutting anew over that before

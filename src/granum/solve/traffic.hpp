@@ -3,9 +3,7 @@
 // passes over the cells of one colour but over the links of all.
 #pragma once
 
-namespace granum::solve
-{
-namespace traffic
+namespace granum::solve::traffic
 {
 constexpr double half_sweep = 12 + 2 + 2 + 2 + 2;  // links; right side, inverse, x of either colour
 constexpr double finest_level =
@@ -14,5 +12,4 @@ constexpr double other_levels = ((2 + 2 + 2) + 11 * half_sweep + (half_sweep + 4
 constexpr double gradients = (4 + 16) + (24 + 8 + 8 + 8) + (48 + 4) + 8;  // direction, product, step, residual times z
 constexpr double per_iteration = finest_level + other_levels + gradients;
 constexpr double per_solve = (32 + 8 + 16) + 24 + (32 + 32) + (8 + 4) + (32 + 16) + (16 + 8) + 16;
-}
 }

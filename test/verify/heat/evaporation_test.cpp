@@ -4,6 +4,7 @@
 #include "granum/law/vapour/film.hpp"
 #include "granum/spray/flight.hpp"
 #include "scene/reference.hpp"
+#include "scene/water_drop.hpp"
 #include "unit/gas/chamber_with_gas.hpp"
 #include "verify/table.hpp"
 
@@ -12,31 +13,14 @@ namespace
 using namespace granum;
 using math::zero_celsius;
 
-//! Water, but for a trace of solids that gives a droplet an age to end at.
-spray::FlightSettings water()
-{
-    spray::FlightSettings settings;
-    settings.liquid.solids_fraction = 1e-9;
-    settings.liquid.density = material::water_density;
-    settings.gravity = {};
-    return settings;
-}
-
-spray::Droplet drop_of(double diameter, double temperature, spray::FlightSettings const& settings)
-{
-    double const mass = settings.liquid.density * math::pi / 6 * std::pow(diameter, 3);
-    double const solids = settings.liquid.solids_fraction;
-    return {.weight = 1, .water = (1 - solids) * mass, .solute = solids * mass, .temperature = temperature};
-}
-
 TEST(WetBulbDrop, settles_near_the_wet_bulb_at_every_humidity)
 {
     scene::Table const table("h-03.csv");
-    auto const settings = water();
+    auto const settings = scene::water();
     for (std::size_t row = 0; row < table.rows(); ++row) {
         spray::Seen const air{.temperature = 30 + zero_celsius,
                               .vapour_fraction = table.number(row, "vapour_mass_fraction")};
-        auto drop = drop_of(1e-3, air.temperature, settings);
+        auto drop = scene::drop_of(1e-3, air.temperature, settings);
         for (int step = 0; step < 2000; ++step) spray::evaporate(drop, settings, air, 3, 0.01);
         double const bulb = table.number(row, "wet_bulb_C"), humidity = table.number(row, "RH_percent");
         // A drop settles at the diffusive wet bulb, lower than the thermodynamic one of the table the drier the air.
@@ -54,13 +38,13 @@ TEST(SuspendedDrop, loses_its_surface_as_measured)
         char const *name, *words;
         double speed, vapour;
     };
-    auto const settings = water();
+    auto const settings = scene::water();
     double const start = 15 + zero_celsius, d0 = 1.2e-3;
     for (auto const& run :
          {Run{"Re60_RH30", "Re 60, 30 %", 0.813, 0.008059}, Run{"Re150_RH30", "Re 150, 30 %", 2.03, 0.008059},
           Run{"Re60_RH0", "Re 60, dry", 0.813, 0}, Run{"Re150_RH0", "Re 150, dry", 2.03, 0}}) {
         spray::Seen const air{.temperature = 30 + zero_celsius, .vapour_fraction = run.vapour};
-        auto drop = drop_of(d0, start, settings);
+        auto drop = scene::drop_of(d0, start, settings);
         double worst = 0;
         for (std::size_t row = 1; row < d2.rows(); ++row) {
             double const span = d2.number(row, "t_s") - d2.number(row - 1, "t_s");
@@ -106,11 +90,11 @@ TEST(Drop, keeps_the_d2_law)
     {
         double celsius, humidity, surface, d0, seconds;
     };
-    auto const settings = water();
+    auto const settings = scene::water();
     for (auto const& life : {Life{25, 0, 7.150, 1.1e-3, 844.5}, Life{60, 0.008, 25.377, 30e-6, 0.300}}) {
         spray::Seen const air{.temperature = life.celsius + zero_celsius,
                               .vapour_fraction = material::fraction(life.humidity)};
-        auto drop = drop_of(life.d0, life.surface + zero_celsius, settings);
+        auto drop = scene::drop_of(life.d0, life.surface + zero_celsius, settings);
         for (int step = 0; step < 4000; ++step) spray::evaporate(drop, settings, air, 0, life.seconds / 8000);
         verify::absolute("H10",
                          fmt::format("drop of {:.2g} mm in air of {} degC: diameter at half its life, share",
@@ -124,8 +108,8 @@ TEST(Spray, that_evaporates_in_a_hot_closed_box_ends_at_the_state_of_the_balance
     // 10 g of water of 20 degC in drops of 0.2 mm, in 1 m3 of dry air of 200 degC.
     gas::Settings const settings{.outlets = {}, .gravity = {}};
     gas::ChamberWithGas box({.size = {1, 1, 1}}, {1, 1, 1}, {}, settings, 200 + zero_celsius, 0);
-    auto flight = water();
-    auto drop = drop_of(2e-4, 20 + zero_celsius, flight);
+    auto flight = scene::water();
+    auto drop = scene::drop_of(2e-4, 20 + zero_celsius, flight);
     drop.weight = 0.01 / drop.water;
     double const solids = drop.solids();
     double const mass = box.sum(box.state.mass), heat = box.sum(box.state.enthalpy) + drop.enthalpy(flight.liquid);
