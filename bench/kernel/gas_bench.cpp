@@ -63,7 +63,7 @@ void measure(Size const& size, par::Communicator const& comm, int blocks)
         });
     };
     fill();
-    auto state = solver.start(voidage, 320, 0.01, {});
+    auto state = solver.start(voidage, grid.make_field(320), 0.01, {});
     gas::Sources sources;
     sources.clear(grid);
     std::vector<double> times;

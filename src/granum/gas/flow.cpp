@@ -89,11 +89,10 @@ void Solver::recall(Field correction, std::optional<solve::Pressure::Memory> mem
     if (memory) inside_->pressure.recall(std::move(*memory));
 }
 
-State Solver::start(Field const& voidage, double temperature, double vapour_fraction, Vec3 velocity) const
+State Solver::start(Field const& voidage, Field const& temperature, double vapour_fraction, Vec3 velocity) const
 {
     Inside const& in = *inside_;
     grid::Grid const& grid = in.grid;
-    double const density = in.equation_of_state(in.settings.pressure, temperature, vapour_fraction, 0);
     State state{.mass = grid.make_field(),
                 .vapour = grid.make_field(),
                 .tracer = grid.make_field(),
@@ -104,13 +103,15 @@ State Solver::start(Field const& voidage, double temperature, double vapour_frac
                 .pressure = grid.make_field(),
                 .static_pressure = in.settings.pressure,
                 .voidage = voidage,
-                .temperature = grid.make_field(temperature),
+                .temperature = temperature,
                 .vapour_fraction = grid.make_field(vapour_fraction),
                 .tracer_fraction = grid.make_field(),
-                .density = grid.make_field(density),
-                .temperatures = {temperature, temperature},
+                .density = grid.make_field(),
                 .vapour_fractions = {vapour_fraction, vapour_fraction}};
-    in.refresh({&state.voidage});
+    in.refresh({&state.voidage, &state.temperature});
+    double coldest = std::numeric_limits<double>::max(), hottest = 0;
+    for (Index c = 0; c < state.density.size(); ++c)
+        state.density[c] = in.equation_of_state(in.settings.pressure, state.temperature[c], vapour_fraction, 0);
     // Pressures count from the upper end of the domain, or from that at which an outlet lies.
     Vec3 zero;
     for (std::size_t d = 0; d < 3; ++d) zero[d] = grid.lines[d].back();
@@ -122,6 +123,8 @@ State Solver::start(Field const& voidage, double temperature, double vapour_frac
         if (!grid.open(c)) return;
         base::require(voidage[c] > 0 && voidage[c] <= 1, "gas: the voidage at the start is {} in cell ({}, {}, {})",
                       voidage[c], i + grid.shift[0], j + grid.shift[1], k + grid.shift[2]);
+        double const density = state.density[c];
+        coldest = std::min(coldest, temperature[c]), hottest = std::max(hottest, temperature[c]);
         Vec3 const x = grid.centre(i, j, k);
         for (std::size_t d = 0; d < 3; ++d)
             if (!grid.periodic[d]) state.pressure[c] += density * in.settings.gravity[d] * (x[d] - zero[d]);
@@ -129,8 +132,9 @@ State Solver::start(Field const& voidage, double temperature, double vapour_frac
         if (in.settings.compressibility == Compressibility::full)
             state.mass[c] *= 1 + state.pressure[c] / in.settings.pressure;
         state.vapour[c] = vapour_fraction * state.mass[c];
-        state.enthalpy[c] = material::enthalpy(temperature, vapour_fraction) * state.mass[c];
+        state.enthalpy[c] = material::enthalpy(temperature[c], vapour_fraction) * state.mass[c];
     });
+    state.temperatures = {in.comm.min(coldest), in.comm.max(hottest)};
     in.refresh({&state.mass, &state.vapour, &state.enthalpy, &state.pressure});
     for (std::size_t d = 0; d < 3; ++d) {
         for (auto const& run : in.faces[d])

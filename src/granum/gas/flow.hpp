@@ -99,9 +99,9 @@ class Solver
     Solver(Settings settings, grid::Grid const& grid, par::Communicator const& comm);
     ~Solver();
 
-    //! Uniform state with the given voidage, temperature and vapour fraction; hydrostatic pressure. The inlets' faces
-    //! have the inlets' velocity. Collective.
-    State start(Field const& voidage, double temperature, double vapour_fraction, Vec3 velocity) const;
+    //! State with the given voidage, temperature (K) and vapour fraction; hydrostatic pressure. The inlets' faces have
+    //! the inlets' velocity. Collective.
+    State start(Field const& voidage, Field const& temperature, double vapour_fraction, Vec3 velocity) const;
 
     //! One step: momentum, pressure, vapour, tracer, enthalpy. `voidage` is that at the end of the step; `sources` of
     //! owned cells are read. Throws base::NumericsError with field, cell and position where a number is not finite or a

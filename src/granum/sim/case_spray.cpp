@@ -123,6 +123,7 @@ void read_process(io::CaseFile& file, Case& data)
     start.bed_temperature =
         file.optional_quantity("start.bed_temperature", Dimension::temperature, "instead of the balance's", warm);
     start.gas_temperature =
-        file.optional_quantity("start.gas_temperature", Dimension::temperature, "instead of the balance's", warm);
+        file.optional_quantity("start.gas_temperature", Dimension::temperature,
+                               "instead of the inlet's or the balance's, and of the granules' between them", warm);
 }
 }

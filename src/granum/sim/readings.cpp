@@ -50,7 +50,7 @@ Readings Simulation::readings() const
         count
     };
     std::array<base::ExactSum, count> exact;  // of granules: the order in memory and the ranks do not show
-    double coldest = 1e9, hottest = 0;
+    double coldest = 1e9, hottest = 0, highest = 0;
     double const c_dry = case_.granules.heat_capacity;
     for (std::size_t row = 0; row < granules_.owned; ++row) {
         double const z = granules_.position[row].z, d = granules_.real_diameter(row);
@@ -67,6 +67,7 @@ Readings Simulation::readings() const
         }
         exact[solids_volume].add(volume);
         exact[solids_area].add(volume * case_.chamber.area(std::clamp(z, case_.chamber.bottom(), case_.chamber.top())));
+        highest = std::max(highest, z - case_.chamber.bottom());
         exact[mass].add(granules_.mass[row]);
         exact[mass_height].add(granules_.mass[row] * (z - case_.chamber.bottom()));
         exact[energy].add(0.5 * granules_.mass[row] * math::norm2(granules_.velocity[row]));
@@ -104,6 +105,7 @@ Readings Simulation::readings() const
     r.coldest = comm_.min(coldest), r.hottest = comm_.max(hottest);
     if (r.coldest > r.hottest) r.coldest = r.hottest = unknown;
     r.height = sums[mass] > 0 ? 2 * sums[mass_height] / sums[mass] : 0;
+    r.highest = comm_.max(highest);
     r.outlet_temperature = r.outlet_humidity = r.eta = unknown;  // nothing has left
     if (!has_gas()) return r;
     if (sums[out_mass] > 0) {

@@ -58,6 +58,7 @@ struct Readings
     double pressure_drop = 0;         //!< Pa, plate less outlet, hydrostatic part of the gas taken off
     double weight_over_area = 0;      //!< Pa, see summary
     double height = 0;                //!< m, of the bed: twice the mean height of its mass above the plate
+    double highest = 0;               //!< m above the plate, of a granule's middle
     double coldest = 0, hottest = 0;  //!< K over gas and granules
     double water_on_granules = 0;     //!< kg
     double kinetic_energy = 0;        //!< J of the granules

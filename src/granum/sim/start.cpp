@@ -1,5 +1,6 @@
 // The state of the process at time zero: gas and moisture as the balance says they must end up.
 #include "granum/base/error.hpp"
+#include "granum/base/exact_sum.hpp"
 #include "granum/drying/impact.hpp"
 #include "granum/law/droplet/size.hpp"
 #include "granum/law/impact/splash.hpp"
@@ -61,16 +62,21 @@ void Simulation::start_gas()
                                : steady                    ? balance_.outlet_temperature
                                                            : inlet.temperature;
     double const vapour = air::fraction(steady ? balance_.outlet_humidity : inlet.humidity);
+    // Of granules that bring none along.
     double const bed = (case_.start.bed_temperature ? *case_.start.bed_temperature
                         : steady                    ? balance_.outlet_temperature
                                                     : temperature) +
                        case_.start.temperature_offset;
 
+    std::array<base::ExactSum, 2> all{};  // heat capacity of the granules and their heat above the gas
     for (std::size_t row = 0; row < granules_.owned; ++row) {
         double& own = granules_.temperature[row];
         if (!(own > 0)) own = bed;
-        granules_.enthalpy[row] = exchange_->heat_capacity(granules_, row) * (own - math::zero_celsius);
+        double const capacity = exchange_->heat_capacity(granules_, row);
+        granules_.enthalpy[row] = capacity * (own - math::zero_celsius);
+        all[0].add(capacity), all[1].add(capacity * (own - temperature));
     }
+    comm_.sum(all);
     Vec3 velocity = gas.initial_velocity;
     if (flows && velocity == Vec3{}) {
         double const density = gas.density ? *gas.density : air::density(gas.pressure, temperature, vapour);
@@ -79,7 +85,20 @@ void Simulation::start_gas()
             if (one.at.direction == 2) velocity.z += (one.at.upper ? -1 : 1) * one.mass_flow / (density * area);
     }
     mapping_->locate(granules_);
-    gas_ = solver_->start(exchange_->voidage(granules_), temperature, vapour, velocity);
+    auto const voidage = exchange_->voidage(granules_);
+    auto temperatures = grid_.make_field(temperature);
+    if (double const capacity = all[0].value(); !case_.start.gas_temperature && capacity > 0) {
+        // Gas between granules has their temperature: of another one it would have it within a millisecond, and would
+        // burst out of the bed as it expands.
+        double const warmer = all[1].value() / capacity;
+        double const solids = case_.granules.density * case_.granules.heat_capacity;
+        double const free = material::heat_capacity_air * air::density(gas.pressure, temperature, vapour);
+        grid::for_each_cell(grid_, [&](int, int, int, grid::Index c) {
+            double const share = (1 - voidage[c]) * solids / ((1 - voidage[c]) * solids + voidage[c] * free);
+            temperatures[c] += share * warmer;
+        });
+    }
+    gas_ = solver_->start(voidage, temperatures, vapour, velocity);
 }
 
 void Simulation::start_deposits()

@@ -88,7 +88,7 @@ struct OneParcel
         bed.put(0, {.position = {0.015, 0.015, 0.015}, .count = count, .temperature = 333.15});
         bed.mapping.locate(bed.granules);
         bed.sources.clear(bed.grid);
-        bed.state = bed.solver.start(bed.exchange.voidage(bed.granules), 293.15, 0, {0, 0, 1.5});
+        bed.state = bed.solver.start(bed.exchange.voidage(bed.granules), bed.grid.make_field(293.15), 0, {0, 0, 1.5});
         bed.exchange.share(bed.granules, bed.state, dt, bed.seen, bed.sources);
     }
     bool here() const { return bed.granules.owned == 1; }

@@ -32,7 +32,7 @@ struct ChamberWithGas
           grid(cut(chamber, cells, periodic, comm)),
           solver(std::move(settings), grid, comm),
           voidage(grid.make_field(1)),
-          state(solver.start(voidage, temperature, vapour, velocity))
+          state(solver.start(voidage, grid.make_field(temperature), vapour, velocity))
     {
         sources.clear(grid);
     }

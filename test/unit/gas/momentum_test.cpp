@@ -101,7 +101,7 @@ TEST(Momentum, fixed_bed_has_ergun_pressure_drop)
     settings.inlets = {gas::Inlet{.mass_flow = density * superficial * box.area(0)}};
     ChamberWithGas run(box, {4, 4, 20}, {}, settings);
     std::fill(run.voidage.begin(), run.voidage.end(), eps);
-    run.state = run.solver.start(run.voidage, 293.15, 0, {0, 0, superficial / eps});
+    run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {0, 0, superficial / eps});
     double const coefficient = ergun(eps, diameter, superficial, mu, density);
     grid::for_each_cell(run.grid, [&](int, int, int, grid::Index c) {
         run.sources.drag_coefficient[c] = coefficient * run.grid.open_volume[c];
@@ -126,7 +126,7 @@ TEST(Momentum, porous_step_gives_bernoulli_pressure_change)
             double const t = std::clamp((k + 0.5) / cells * 4 - 1.5, 0.0, 1.0);
             run.voidage[run.grid.at(0, 0, k)] = 1 - 0.6 * t * t * (3 - 2 * t);
         }
-        run.state = run.solver.start(run.voidage, 293.15, 0, {0, 0, 1});
+        run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {0, 0, 1});
         for (int step = 0; step < 10 * cells; ++step) run.step(0.3 / cells);
         double worst = 0;
         for (int k = 1; k <= cells; ++k)
@@ -169,7 +169,7 @@ TEST(Momentum, gas_and_granules_exchange_momentum_without_loss)
     settings.outlets = {};
     ChamberWithGas run(Chamber{.size = {0.04, 0.04, 0.04}}, {4, 4, 4}, {true, true, true}, settings);
     std::fill(run.voidage.begin(), run.voidage.end(), 0.6);
-    run.state = run.solver.start(run.voidage, 293.15, 0, {0.3, 0, -1});
+    run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {0.3, 0, -1});
     double const volume = run.grid.volume(0, 0, 0), solid = 0.4 * 2.0 * volume, air = 0.6 * 1.2 * volume,
                  coefficient = 50 * volume;
     std::vector<Vec3> v(run.grid.size(), {0, 0.2, 1});
@@ -259,6 +259,6 @@ TEST(Momentum, courant_step_is_the_time_to_cross_a_cell)
     ChamberWithGas run(Chamber{.size = {0.1, 0.1, 0.2}}, {10, 10, 10}, {true, true, true}, settings, 293.15, 0,
                        {0.5, 0, 2});
     EXPECT_NEAR(run.solver.courant_step(run.state, 0.5), 0.5 * 0.01, 1e-12);
-    run.state = run.solver.start(run.voidage, 293.15, 0, {});
+    run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {});
     EXPECT_TRUE(std::isinf(run.solver.courant_step(run.state, 0.5)));
 }

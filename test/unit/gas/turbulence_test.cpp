@@ -44,7 +44,7 @@ TEST(Turbulence, of_k_epsilon_decays_by_its_power_law)
     for (double const voidage : {1.0, 0.5}) {
         ChamberWithGas run({.size = {1, 1, 1}}, {3, 2, 2}, periodic, settings, 293.15, 0, {0.3, 0, 0});
         std::fill(run.voidage.begin(), run.voidage.end(), voidage);
-        run.state = run.solver.start(run.voidage, 293.15, 0, {0.3, 0, 0});
+        run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {0.3, 0, 0});
         for (int step = 0; step < 400; ++step) run.step(1.0 / 400);
         EXPECT_NEAR(run.at(run.state.energy_of_eddies, 1, 1, 1), 0.49211, 0.002);
         EXPECT_NEAR(run.at(run.state.rate_of_eddies, 0, 0, 1), std::pow(1.92, -(1 / 0.92 + 1)), 0.002);
@@ -122,7 +122,7 @@ TEST(Turbulence, is_damped_by_granules_that_do_not_follow_and_made_by_their_wake
     auto const after = [&] {
         ChamberWithGas run({.size = {1, 1, 1}}, {2, 2, 2}, periodic, settings);
         std::fill(run.voidage.begin(), run.voidage.end(), voidage);
-        run.state = run.solver.start(run.voidage, 293.15, 0, {});
+        run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {});
         double const relaxation = 2000 * 0.02 * volume / beta;
         for (grid::Index c = 0; c < run.grid.size(); ++c) {
             run.sources.drag_coefficient[c] = beta / (1 + dt / relaxation);

@@ -57,6 +57,7 @@ TEST(Simulation, of_granules_alone_reads_height_and_energy_of_the_bed)
     auto const readings = simulation->readings();
     // Masses 1 to 8: the mean height of the mass is (10 + 8 * 60) / 9 mm, the bed's height twice that.
     EXPECT_NEAR(readings.height, 2 * 0.490 / 9, 1e-12);
+    EXPECT_NEAR(readings.highest, 0.060, 1e-12);
     EXPECT_NEAR(readings.kinetic_energy, 0.5 * 1000 * math::pi / 6 * 8e-9 * 0.01, 1e-18);
     EXPECT_EQ(readings.bed_moisture, 0);
     EXPECT_FALSE(simulation->has_gas());
@@ -113,6 +114,52 @@ air = "1.2 kg/h"
 [time]
 duration = "1 s"
 )";
+
+TEST(HotBed, has_hot_gas_between_its_granules_and_does_not_burst)
+{
+    std::string text = R"(
+[apparatus]
+shape = "box"
+size = ["8 mm", "8 mm", "24 mm"]
+[gas]
+cells = [4, 4, 12]
+velocity = "0.2 m/s"
+temperature = "20 degC"
+humidity = 0
+[granules]
+diameter = "1 mm"
+density = "2500 kg/m3"
+heat_capacity = "840 J/kg/K"
+start = "settled"
+number = 500
+[contact]
+youngs_modulus = "1 MPa"
+[start]
+quasi_steady = false
+bed_temperature = "90 degC"
+[time]
+duration = "1 s"
+)";
+    auto const simulation = scene::simulation_of(text);
+    auto const& grid = simulation->grid();
+    auto const& gas = simulation->gas();
+    // Solids to gas by heat capacity as in any bed: some thousand to one; far above the bed there are none.
+    EXPECT_NEAR(gas.temperature[grid.at(1, 1, 1)], 363.15, 0.2);
+    EXPECT_NEAR(gas.temperature[grid.at(1, 1, 11)], 293.15, 1e-9);
+    EXPECT_NEAR(gas.density[grid.at(1, 1, 1)], 101325 / (287.05 * 363.15), 1e-3);
+    double fastest = 0;
+    for (int k = 0; k < 20; ++k) {
+        simulation->step(1e-4);
+        for (int layer = 0; layer < 12; ++layer)
+            fastest = std::max(fastest, std::abs(gas.velocity[2][grid.at(1, 1, layer)]));
+    }
+    EXPECT_LT(fastest, 1.5);  // 0.2 m/s between granules of 60 % by volume, a quarter wider as it warms
+
+    // Said otherwise, gas is as cold as the case says.
+    text.insert(text.find("bed_temperature"), "gas_temperature = \"20 degC\"\n");
+    auto const cold = scene::simulation_of(text);
+    EXPECT_EQ(cold->gas().temperature[grid.at(1, 1, 1)], 293.15);
+}
 
 TEST(SprayedBed, starts_as_wet_as_the_spray_keeps_it)
 {

@@ -153,7 +153,7 @@ std::array<double, 2> manufactured(int cells, bool b)
         run.voidage[c] = Manufactured::voidage(a, b_);
         for (std::size_t d : {0u, 2u}) run.sources.drag_momentum[d][c] = volume * Manufactured::force(d, a, b_, b);
     });
-    run.state = run.solver.start(run.voidage, 293.15, 0, {});
+    run.state = run.solver.start(run.voidage, run.grid.make_field(293.15), 0, {});
     for (int step = 0; step < 100; ++step) run.step(0.5 * h);
     double velocity = 0, pressure = 0, mean = 0;
     double const each = 1.0 / (cells * cells);
