@@ -339,6 +339,27 @@ def umf(folder):
     return section
 
 
+def tube(folder):
+    section = Section("Tube of 200,000 spheres", "Spheres of 0.5 mm in a tube of 20 mm whose air is turned down, 0.05 s at each velocity "
+                      "from the state before, pressures of the second half (reference case x-02; the drag law is Ergun's in the "
+                      "dense bed). U_mf is where the line a U + b U^2 through the fixed bed's points meets the weight.")
+    text, points = (CASES / "tube.toml").read_text(), []
+    for velocity, of in turned_down(folder, text, 200000, (0.30, 0.24, 0.20, 0.16, 0.12, 0.10, 0.08, 0.06, 0.04)):
+        points.append((velocity, statistics.fmean(of.after("timeseries.csv", "pressure_drop", 0.025)),
+                       statistics.fmean(of.after("boxes.csv", "between_solids_fraction", 0.025))))
+    weight = of.summary["bed"]["weight_over_area_Pa"]
+    section.row("weight over area, Pa", "408.3 +- 0.5 %", "x-02", f"{weight:.1f}", abs(weight / 408.34 - 1) < 0.005)
+    plateau = statistics.fmean(p for u, p, _ in points if u >= 0.2)
+    section.row("plateau of the pressure drop, 0.20 m/s and above, Pa", "408.3 +- 3 %", "x-02", f"{plateau:.1f}",
+                abs(plateau / 408.34 - 1) < 0.03)
+    met, packing = crossing([(u, p) for u, p, _ in points], weight), points[-1][2]
+    section.row(f"U_mf, m/s (solids {packing:.3f} in the middle)", "0.1348 +- 20 %", "x-02, Wen and Yu", f"{met:.4f}",
+                abs(met / 0.134826 - 1) < 0.2)
+    for u, p, s in points:
+        section.row(f"pressure drop at {u:.2f} m/s, Pa (solids {s:.3f})", "", "", f"{p:.1f}")
+    return section
+
+
 def cone(folder):
     section = Section("Lab cone on ranks", "The lab example, 6 s with spray, on 1, 2 and 4 ranks that share space anew every 200 gas steps; "
                       "means after 1.5 s. What granules alone do in gas that is held is the same to the bit "
@@ -361,7 +382,7 @@ def cone(folder):
 
 
 BEDS = {"mueller": mueller, "umf": umf, "goldschmidt": goldschmidt, "vanwachem": vanwachem, "patil": patil, "spout": spout,
-        "sscp": sscp, "cone": cone}
+        "sscp": sscp, "tube": tube, "cone": cone}
 
 
 def write(sections):
