@@ -207,5 +207,5 @@ TEST(Continued, no_member_was_added_to_the_state_without_a_thought)
               8 + sizeof(sim::Readings) + sizeof(sim::SprayTotals) + sizeof(sim::BedStatistics) + sizeof(sim::Traffic));
     EXPECT_EQ(sizeof(sim::Traffic), 48u);
     EXPECT_EQ(sizeof(sim::Feed), sizeof(sim::FeedCase) + sizeof(std::vector<sim::GranuleCase>) + 16);
-    EXPECT_EQ(sizeof(sim::Readings), 96u);
+    EXPECT_EQ(sizeof(sim::Readings), 104u);
 }
