@@ -52,15 +52,17 @@ SizeDistribution::SizeDistribution(std::vector<double> diameters, std::vector<do
     base::require(sum > 0 && std::isfinite(sum), "a size distribution has no granules between {:.4g} and {:.4g} m",
                   diameters_.front(), diameters_.back());
     double running = 0, square = 0;
-    if (!stepwise) cumulative_.push_back(0);
+    if (!stepwise) cumulative_.push_back(0), mass_cumulative_.push_back(0);
     for (std::size_t k = 0; k < shares.size(); ++k) {
         double const share = shares[k] / sum;
         cumulative_.push_back(std::min(1.0, running += share));
         double const low = diameters_[k], high = stepwise ? low : diameters_[k + 1];
         mean_cube_ += share * 0.25 * (low + high) * (low * low + high * high);
+        mass_cumulative_.push_back(mean_cube_);
         square += share * (low * low + low * high + high * high) / 3;
     }
     cumulative_.back() = 1;
+    for (double& share : mass_cumulative_) share /= mean_cube_;
     sauter_ = mean_cube_ / square;
 }
 
@@ -141,5 +143,18 @@ double SizeDistribution::diameter(double u) const
     if (k == 0) return diameters_.front();
     double const part = (u - cumulative_[k - 1]) / (cumulative_[k] - cumulative_[k - 1]);
     return diameters_[k - 1] + part * (diameters_[k] - diameters_[k - 1]);
+}
+
+double SizeDistribution::mass_diameter(double u) const
+{
+    auto const at = std::upper_bound(mass_cumulative_.begin(), mass_cumulative_.end(), u);
+    if (at == mass_cumulative_.end()) return diameters_.back();
+    auto const k = static_cast<std::size_t>(at - mass_cumulative_.begin());
+    if (stepwise_) return diameters_[k];
+    if (k == 0) return diameters_.front();
+    // Diameters are spread evenly by number between two points, so the mass below one grows with its fourth power.
+    double const part = (u - mass_cumulative_[k - 1]) / (mass_cumulative_[k] - mass_cumulative_[k - 1]);
+    double const low = std::pow(diameters_[k - 1], 4), high = std::pow(diameters_[k], 4);
+    return std::pow(low + part * (high - low), 0.25);
 }
 }

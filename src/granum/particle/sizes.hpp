@@ -38,6 +38,8 @@ class SizeDistribution
 
     //! Diameter below which the share `u` (0 to 1) of the granules lies, by number, m.
     double diameter(double u) const;
+    //! Diameter below which the share `u` (0 to 1) of the mass lies, m.
+    double mass_diameter(double u) const;
     double smallest() const { return diameters_.front(); }
     double largest() const { return diameters_.back(); }
     double mean_cube() const { return mean_cube_; }  //!< mean of the cubed diameters by number, m3
@@ -47,7 +49,7 @@ class SizeDistribution
     SizeDistribution(std::vector<double> diameters, std::vector<double> number_shares, bool stepwise);
 
     // Stepwise: the share of diameters_[k] ends at cumulative_[k]. Otherwise straight between the points.
-    std::vector<double> diameters_, cumulative_;
+    std::vector<double> diameters_, cumulative_, mass_cumulative_;
     bool stepwise_ = true;
     double mean_cube_ = 0, sauter_ = 0;
 };

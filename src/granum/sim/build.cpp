@@ -276,8 +276,9 @@ std::vector<spray::Nozzle> nozzles(Case const& data)
                        .droplet_velocity = n.droplet_velocity,
                        .droplet_temperature = s.temperature,
                        .rate = s.rate * share,
-                       .median = s.droplet_median,
+                       .median = n.droplet_median > 0 ? n.droplet_median : s.droplet_median,
                        .spread = s.droplet_spread,
+                       .sizes = s.size,
                        .parcels_per_second = s.parcels_per_second * share,
                        .number = out.size()});
     return out;

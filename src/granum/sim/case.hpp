@@ -275,6 +275,9 @@ struct NozzleCase
     double air_temperature = 293.15;  //!< K
     double air_humidity = 0;          //!< kg/kg dry
     double air_velocity = 250;        //!< m/s at the exit: momentum = mass flow * velocity
+    double air_pressure = 0;          //!< Pa, absolute, before the mouth; 0: not told
+    double bore = 0;                  //!< m, diameter of the liquid's mouth; 0: not told
+    double droplet_median = 0;        //!< m, of its own droplets; 0: that of the spray
     double droplet_velocity = 30;     //!< m/s at the exit
 };
 struct SprayCase
@@ -292,6 +295,8 @@ struct SprayCase
     double contact_angle = 0.698;   //!< rad
     double droplet_median = 40e-6;  //!< m, of the volume distribution
     double droplet_spread = 1.6;    //!< geometric standard deviation
+    std::optional<particle::SizeDistribution> size;  //!< instead of median and spread
+    std::string atomisation = "none";                //!< law that gives each nozzle's median instead
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules

@@ -1,4 +1,8 @@
 // Reads [spray] with its nozzles, and the process: [drying], [product], [start], [time], [output].
+#include "granum/law/atomising/droplets.hpp"
+#include "granum/law/atomising/orifice.hpp"
+#include "granum/law/droplet/size.hpp"
+#include "granum/material/moist_air.hpp"
 #include "granum/sim/case_sections.hpp"
 #include "granum/sim/law_families.hpp"
 
@@ -10,7 +14,62 @@ using io::Dimension;
 
 namespace
 {
-NozzleCase read_nozzle(io::CaseFile& file, std::string const& key, Purpose purpose)
+//! Flow and momentum of the atomising air from its pressure.
+void read_pressed_air(io::CaseFile& file, std::string const& key, double ambient, NozzleCase& nozzle)
+{
+    for (auto const* name : {"air", "air_velocity"})
+        if (file.has(key + name)) file.mistake(key + name, "follows from air_pressure", {"give one of the two"});
+    law::atomising::Orifice orifice{.temperature = nozzle.air_temperature, .ambient = ambient};
+    orifice.pressure = file.quantity(key + "air_pressure", Dimension::pressure, std::nullopt,
+                                     "of the atomising air before the mouth, absolute; instead of air and air_velocity",
+                                     {.low = ambient, .low_allowed = false});
+    orifice.area = file.quantity(key + "air_mouth", Dimension::area, std::nullopt, "through which the air leaves",
+                                 io::positive);
+    orifice.discharge = file.quantity(key + "discharge", Dimension::one, orifice.discharge,
+                                      "share of the mouth that the air fills (recalled)",
+                                      {.low = 0, .high = 1, .low_allowed = false});
+    if (!std::isfinite(orifice.pressure + orifice.area)) return;
+    double const flow = orifice.mass_flow();
+    nozzle.air_mass_flow = flow / (1 + nozzle.air_humidity);
+    nozzle.air_velocity = orifice.thrust() / flow;
+    nozzle.air_pressure = orifice.pressure;
+    file.derived(key + "air", fmt::format("{:.4g} kg/h", 3600 * nozzle.air_mass_flow),
+                 orifice.choked() ? "as fast as sound at the mouth" : "slower than sound at the mouth");
+    file.derived(key + "air_velocity", fmt::format("{:.4g} m/s", nozzle.air_velocity),
+                 "once it is at the chamber's pressure");
+}
+
+//! Median of a nozzle's droplets by a correlation, m.
+void atomise(io::CaseFile& file, std::string const& key, double ambient, SprayCase const& spray, double rate,
+             NozzleCase& nozzle)
+{
+    auto const needs = [&](char const* name, bool there, char const* what) {
+        if (!there) file.mistake(key + name, fmt::format("is what {} needs of a nozzle: {}", spray.atomisation, what));
+        return there;
+    };
+    bool good = needs("bore", nozzle.bore > 0, "the diameter of the liquid's mouth");
+    good = needs("air", nozzle.air_mass_flow > 0, "atomising air") && good;
+    if (spray.atomisation == law::atomising::Walzel::card.name)
+        good = needs("air_pressure", nozzle.air_pressure > 0, "the pressure of the atomising air") && good;
+    if (!good) return;
+    law::atomising::Atomisation const at{
+        .liquid_flow = rate,
+        .air_flow = nozzle.air_mass_flow * (1 + nozzle.air_humidity),
+        .air_excess_pressure = nozzle.air_pressure - ambient,
+        .air_density = material::density(ambient, nozzle.air_temperature, material::fraction(nozzle.air_humidity)),
+        .air_velocity = std::abs(nozzle.air_velocity - nozzle.droplet_velocity),
+        .density = spray.density,
+        .viscosity = spray.viscosity,
+        .surface_tension = spray.surface_tension,
+        .bore = nozzle.bore};
+    auto const law = law::atomising::Droplets::make(spray.atomisation);
+    double const sauter = std::visit([&](auto const& one) { return one(at); }, *law);
+    nozzle.droplet_median = law::droplet::shifted(sauter, spray.droplet_spread, 0.5);
+    file.derived(key + "droplet_median", fmt::format("{:.4g} um", 1e6 * nozzle.droplet_median),
+                 fmt::format("by {}: Sauter diameter {:.4g} um", spray.atomisation, 1e6 * sauter));
+}
+
+NozzleCase read_nozzle(io::CaseFile& file, std::string const& key, double ambient, Purpose purpose)
 {
     NozzleCase nozzle;
     bool const placed = purpose == Purpose::run;
@@ -33,6 +92,13 @@ NozzleCase read_nozzle(io::CaseFile& file, std::string const& key, Purpose purpo
         file.quantity(key + "air_humidity", Dimension::one, 0.0, "kg water per kg dry air", io::not_negative);
     nozzle.air_velocity = file.quantity(key + "air_velocity", Dimension::velocity, nozzle.air_velocity,
                                         "of the atomising air at the mouth", io::not_negative);
+    if (file.has(key + "air_pressure"))
+        read_pressed_air(file, key, ambient, nozzle);
+    else
+        for (auto const* name : {"air_mouth", "discharge"})
+            if (file.know(key + name); file.has(key + name)) file.mistake(key + name, "needs air_pressure");
+    nozzle.bore = file.quantity(key + "bore", Dimension::length, 0.0, "diameter of the liquid's mouth; 0: not told",
+                                io::not_negative);
     nozzle.droplet_velocity = file.quantity(key + "droplet_velocity", Dimension::velocity, nozzle.droplet_velocity,
                                             "of the droplets at the mouth", io::not_negative);
     return nozzle;
@@ -78,6 +144,17 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
                                          "diameter, of the volume distribution", io::positive);
     spray.droplet_spread = file.quantity("spray.droplet_spread", Dimension::one, spray.droplet_spread,
                                          "geometric standard deviation", {.low = 1, .high = 5});
+    spray.size = read_sizes(file, "spray.");
+    auto atomising = laws_for("spray.atomisation");
+    atomising.insert(atomising.begin(), "none");
+    spray.atomisation = file.name("spray.atomisation", spray.atomisation,
+                                  "correlation for the size of the droplets, for trends only", atomising, "a correlation");
+    if (spray.size)
+        for (auto const* key : {"spray.droplet_median", "spray.droplet_spread"})
+            if (file.has(key)) file.mistake(key, "does not go with spray.size", {"give one of the two"});
+    if (spray.atomisation != "none")
+        for (auto const* key : {"spray.droplet_median", "spray.size"})
+            if (file.has(key)) file.mistake(key, "does not go with spray.atomisation", {"give one of the two"});
     spray.parcels_per_second = file.quantity("spray.parcels_per_second", Dimension::count_rate,
                                              spray.parcels_per_second, "droplet parcels made per second", io::positive);
     spray.capture = file.name("spray.capture", spray.capture, "law", laws_for("spray.capture"), "a capture law");
@@ -87,7 +164,11 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     spray.allow_overwetting =
         file.boolean("spray.allow_overwetting", false, "run even if the air cannot take up the water");
     for (int i = 0; i < nozzles; ++i)
-        spray.nozzles.push_back(read_nozzle(file, fmt::format("nozzle[{}].", i), purpose));
+        spray.nozzles.push_back(read_nozzle(file, fmt::format("nozzle[{}].", i), data.gas.pressure, purpose));
+    if (spray.atomisation != "none" && whole)
+        for (int i = 0; i < nozzles; ++i)
+            atomise(file, fmt::format("nozzle[{}].", i), data.gas.pressure, spray, spray.rate / nozzles,
+                    spray.nozzles[static_cast<std::size_t>(i)]);
     if (whole && nozzles == 0) file.mistake("spray", "has no nozzle", {"add a [[nozzle]] with its position"});
 }
 

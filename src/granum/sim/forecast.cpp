@@ -123,6 +123,9 @@ void add_warnings(Case const& data, Forecast& out)
         warn("time.granule_step is above the recommended bound");
     if (data.spray.present && !data.spray.nozzles.empty() && data.product.illustrative)
         warn("product: the porosity coefficients are illustrative; fit them to measurements of your product");
+    if (data.spray.atomisation != "none")
+        warn(fmt::format("spray.atomisation: {} is a correlation for trends; measure the droplets of your nozzle",
+                         data.spray.atomisation));
     if (out.balance && out.balance->overwetted())
         warn("the air cannot take up the sprayed water: the bed will over-wet");
     for (auto const& nozzle : data.spray.nozzles)

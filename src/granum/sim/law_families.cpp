@@ -1,5 +1,6 @@
 #include "granum/sim/law_families.hpp"
 
+#include "granum/law/atomising/droplets.hpp"
 #include "granum/law/capture/all.hpp"
 #include "granum/law/conduction/all.hpp"
 #include "granum/law/contact/all.hpp"
@@ -53,6 +54,7 @@ std::vector<LawFamily> const& law_families()
         family<law::contact::RollingLaws>("contact-rolling", "contact.rolling", "resistance to rolling"),
         family<law::conduction::All>("contact-conduction", "contact.conduction", "heat between granules that touch"),
         family<law::film::All>("film", "contact.film", "heat through the gas between granules that nearly touch"),
+        family<law::atomising::Droplets>("atomisation", "spray.atomisation", "Sauter diameter of the spray of a nozzle"),
         family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
         family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
         family<product::All>("porosity", "product.porosity_model",

@@ -133,9 +133,9 @@ void Simulation::start_deposits()
     double const sum = share / std::max(0.05, 1 - share / full);
 
     // One deposit of the median droplet; the others dry in times proportional to the square of their diameter.
-    double const median = spray.droplet_median;
-    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(case_.chamber.bottom()));
     auto const& nozzle = nozzles_.front();
+    double const median = nozzle.median_diameter();
+    double const settled = batch.mass / (batch.density * 0.6 * case_.chamber.area(case_.chamber.bottom()));
     Vec3 const surface = nozzle.position + std::max(0.02, nozzle.position.z - 1.5 * settled) * nozzle.direction;
     law::impact::Impact const impact{spray.density, spray.viscosity, spray.surface_tension,
                                      2.0 / 3 * std::max(3.0, nozzle.jet_speed(surface, density)), median};
@@ -164,11 +164,10 @@ void Simulation::start_deposits()
     std::vector<long> row_of(static_cast<std::size_t>(batch.parcels), -1);
     for (std::size_t row = 0; row < granules_.owned; ++row) row_of[granules_.id[row]] = static_cast<long>(row);
     double const per_second = spray.parcels_per_second;
-    double const longest = curve.duration() * std::pow(spray.droplet_spread, 8);  // four standard deviations, squared
+    double const longest = curve.duration() * std::pow(nozzle.largest_diameter() / median, 2);
     for (std::uint64_t n = 0; static_cast<double>(n) < longest * per_second; ++n) {
         base::Random random(case_.seed, base::Purpose::deposit, n, 0);
-        double const diameter = law::droplet::sample_volume_weighted(median, spray.droplet_spread, random.normal());
-        double const size = diameter / median, duration = curve.duration() * size * size;
+        double const size = nozzle.diameter(random) / median, duration = curve.duration() * size * size;
         double const age = (static_cast<double>(n) + 0.5) / per_second;
         auto const id = static_cast<std::size_t>(random.uniform() * static_cast<double>(batch.parcels));
         long const found = row_of[id];
@@ -189,7 +188,7 @@ void Simulation::start_deposits()
         old.slip = age * speed;
         old.record.initial = 1;
         old.record.t_deposit = -age;
-        old.record.droplet_diameter = diameter;
+        old.record.droplet_diameter = median * size;
         old.record.moisture_at_impact = liquid.feed_moisture();
         old.record.gas_temperature = old.record.granule_temperature = old.record.droplet_temperature = temperature;
         old.record.gas_humidity = balance_.outlet_humidity;

@@ -31,6 +31,17 @@ std::array<Vec3, 2> frame(Vec3 const& axis)
 }
 }
 
+double Nozzle::diameter(base::Random& random) const
+{
+    return sizes ? sizes->mass_diameter(random.uniform())
+                 : law::droplet::sample_volume_weighted(median, spread, random.normal());
+}
+
+double Nozzle::largest_diameter() const
+{
+    return sizes ? sizes->largest() : law::droplet::sample_volume_weighted(median, spread, 4);
+}
+
 double Nozzle::jet_speed(Vec3 const& x, double density) const
 {
     auto const [z, r] = on_axis(*this, x);
@@ -64,8 +75,7 @@ std::vector<Droplet> Nozzle::emit(double now, double dt, Liquid const& liquid, s
     for (std::uint64_t n = left_by(now); n < left_by(now + dt); ++n) {
         Droplet droplet{.id = n + (number << 40)};
         base::Random random(seed, base::Purpose::droplet, droplet.id, 0);
-        double const diameter = law::droplet::sample_volume_weighted(median, spread, random.normal());
-        double const mass = liquid.density * math::pi / 6 * diameter * diameter * diameter;
+        double const mass = liquid.density * math::pi / 6 * std::pow(diameter(random), 3);
         droplet.solute = mass * liquid.solids_fraction;
         droplet.water = mass - droplet.solute;
         droplet.weight = parcel_mass / mass;

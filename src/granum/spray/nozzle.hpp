@@ -7,6 +7,7 @@
 #pragma once
 
 #include "granum/base/random.hpp"
+#include "granum/particle/sizes.hpp"
 #include "granum/spray/droplet.hpp"
 
 #include <optional>
@@ -25,8 +26,13 @@ struct Nozzle
     double droplet_temperature = 298.15;                       //!< K
     double rate = 0;                                           //!< kg/s of liquid
     double median = 40e-6, spread = 1.6;  //!< of the volume distribution: m, geometric standard deviation
+    std::optional<particle::SizeDistribution> sizes{};  //!< instead of the log-normal distribution
     double parcels_per_second = 2e4;
     std::uint64_t number = 0;  //!< among the nozzles: none shares identities or draws with another
+
+    double diameter(base::Random& random) const;  //!< m, of a parcel of droplets: parcels have equal masses
+    double median_diameter() const { return sizes ? sizes->mass_diameter(0.5) : median; }  //!< m
+    double largest_diameter() const;  //!< m, of all but some droplets in 10^5
 
     double momentum() const { return air_mass_flow * air_velocity; }  //!< N
 

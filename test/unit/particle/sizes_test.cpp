@@ -81,4 +81,19 @@ TEST(SizeDistribution, is_cut_at_its_limits_and_rises_in_between)
     EXPECT_LE(sizes.diameter(1), 1.5e-3);
     for (int k = 1; k <= 100; ++k) EXPECT_LE(sizes.diameter((k - 1) / 100.0), sizes.diameter(k / 100.0));
 }
+
+TEST(SizeDistribution, has_its_mass_below_its_diameters_by_mass)
+{
+    auto const list = SizeDistribution::list({2e-3, 1e-3}, {3, 1}, Weighting::mass);
+    EXPECT_EQ(list.mass_diameter(0.25 - 1e-9), 1e-3);
+    EXPECT_EQ(list.mass_diameter(0.25 + 1e-9), 2e-3);
+    // Rosin and Rammler's law by mass, by its closed form; cut off where less than 1e-8 of the mass lies.
+    auto const rosin = SizeDistribution::rosin_rammler(45e-6, 2.5, 0.03e-6, 150e-6, Weighting::mass);
+    for (double const u : {0.1, 0.5, 0.9, 0.99})
+        EXPECT_NEAR(rosin.mass_diameter(u), 45e-6 * std::pow(-std::log1p(-u), 1 / 2.5), 2e-8) << u;
+    // Even by number: the mass below d grows with its fourth power.
+    auto const even = SizeDistribution::uniform(1e-9, 1e-3, Weighting::number);
+    for (double const u : {0.0016, 0.2, 0.8}) EXPECT_NEAR(even.mass_diameter(u), 1e-3 * std::pow(u, 0.25), 1e-8) << u;
+    EXPECT_EQ(even.mass_diameter(1), 1e-3);
+}
 }

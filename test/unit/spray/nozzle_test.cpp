@@ -92,6 +92,23 @@ TEST(Nozzle, makes_droplets_of_the_stated_distribution_by_volume)
     EXPECT_NEAR(by_number / number, 23.026e-6, 0.06 * 23.026e-6);
 }
 
+TEST(Nozzle, makes_droplets_of_a_measured_distribution)
+{
+    auto nozzle = laboratory();
+    nozzle.sizes = particle::SizeDistribution::list({20e-6, 60e-6}, {1, 3}, particle::Weighting::mass);
+    nozzle.parcels_per_second = 2e5;
+    double coarse = 0, count = 0;
+    for (auto const& d : spray(nozzle, 0.5, 0.1)) {
+        double const diameter = d.diameter(benzoate);
+        EXPECT_TRUE(std::abs(diameter - 20e-6) < 1e-9 || std::abs(diameter - 60e-6) < 1e-9) << diameter;
+        EXPECT_NEAR(d.mass(), nozzle.rate / 2e5, 1e-12 * d.mass());
+        coarse += diameter > 40e-6, ++count;
+    }
+    EXPECT_NEAR(coarse / count, 0.75, 4 * std::sqrt(0.25 * 0.75 / count));
+    EXPECT_EQ(nozzle.largest_diameter(), 60e-6);
+    EXPECT_EQ(nozzle.median_diameter(), 60e-6);
+}
+
 TEST(Nozzle, fills_its_cone_evenly_in_solid_angle)
 {
     auto nozzle = laboratory();
