@@ -18,7 +18,7 @@ struct Event
 {
     double granule, t_deposit, t_dry_end, x, y, z, solids, weight;
     double droplet_diameter, moisture_at_impact, droplet_temperature, age, path, normal_speed, tangential_speed;
-    double weber, reynolds, ohnesorge, mundo;
+    double weber, reynolds, ohnesorge, mundo, splashed, crust;
     double gas_temperature, gas_humidity, relative_humidity, drying_potential, granule_temperature, granule_moisture;
     double coverage, solids_fraction, slip;
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
@@ -45,6 +45,8 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"reynolds", "1", "of the droplet, with the normal speed"},
     {"ohnesorge", "1", "of the droplet"},
     {"mundo", "1", "Oh Re^1.25; splashing above about 57.7"},
+    {"splashed", "1", "share of the droplet's mass that splashed off"},
+    {"crust", "1", "1: the solids of the droplet had locked before the impact"},
     {"gas_temperature", "K", "seen by the granule at impact"},
     {"gas_humidity", "kg/kg", "loading seen by the granule at impact"},
     {"relative_humidity", "1", "seen by the granule at impact"},

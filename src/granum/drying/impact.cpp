@@ -18,8 +18,9 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     fresh.weight = droplet.weight;
     fresh.water = fresh.water_at_impact = droplet.weight * droplet.water;
     fresh.solute = droplet.weight * droplet.solute;
-    fresh.base_radius =
-        law::wetting::footprint_radius(droplet.diameter, droplet.contact_angle, impact.weber(), impact.reynolds());
+    fresh.base_radius = droplet.crust ? 0.5 * droplet.diameter
+                                      : law::wetting::footprint_radius(droplet.diameter, droplet.contact_angle,
+                                                                       impact.weber(), impact.reynolds());
 
     double const dry = granules.core_mass[row] + granules.layer_mass[row] + granules.solute[row];
     Event& record = fresh.record;
@@ -36,6 +37,8 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     record.reynolds = impact.reynolds();
     record.ohnesorge = impact.ohnesorge();
     record.mundo = impact.mundo();
+    record.splashed = droplet.splashed;
+    record.crust = droplet.crust;
     record.gas_temperature = local.gas_temperature;
     record.gas_humidity = local.gas_humidity;
     record.relative_humidity = material::relative_humidity(local.gas_temperature, local.gas_humidity, local.pressure);

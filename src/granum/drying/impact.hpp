@@ -18,7 +18,9 @@ struct Arrival
     double age = 0, path = 0;                                                   //!< s, m
     Vec3 position, velocity;                                                    //!< m, m/s
     double density = 0, viscosity = 0, surface_tension = 0, contact_angle = 0;  //!< of the liquid, SI
-    double sine = 0;  //!< of the angle between path and surface normal at the impact point
+    double sine = 0;      //!< of the angle between path and surface normal at the impact point
+    double splashed = 0;  //!< share of the mass that has splashed off
+    bool crust = false;   //!< solids had locked
 };
 
 //! What the granule sees at the moment of impact.

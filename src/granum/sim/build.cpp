@@ -257,7 +257,10 @@ spray::Liquid spray_liquid(Case const& data)
             .solubility = s.solubility,
             .molar_mass = s.molar_mass,
             .dissociation = s.dissociation,
-            .contact_angle = s.contact_angle};
+            .contact_angle = s.contact_angle,
+            .locking = s.locking,
+            .solids_diffusivity = s.solids_diffusivity,
+            .crust_diffusivity = s.crust_diffusivity};
 }
 
 std::vector<spray::Nozzle> nozzles(Case const& data)
@@ -294,6 +297,7 @@ spray::FlightSettings flight_settings(Case const& data)
             .gravity = data.gravity,
             .pressure = data.gas.pressure,
             .end_moisture = data.drying.end_moisture,
+            .splash = data.spray.splash,
             .longest_hop = 0.25 * cell,
             .dispersion = dispersion(data, data.spray.dispersion),
             .seed = data.seed};

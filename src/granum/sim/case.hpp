@@ -3,6 +3,7 @@
 
 #include "granum/geometry/body.hpp"
 #include "granum/geometry/chamber.hpp"
+#include "granum/law/impact/splash.hpp"
 #include "granum/math/constants.hpp"
 #include "granum/particle/sizes.hpp"
 
@@ -296,7 +297,10 @@ struct SprayCase
     double droplet_median = 40e-6;  //!< m, of the volume distribution
     double droplet_spread = 1.6;    //!< geometric standard deviation
     std::optional<particle::SizeDistribution> size;  //!< instead of median and spread
-    std::string atomisation = "none";                //!< law that gives each nozzle's median instead
+    double locking = 0;                              //!< share of the volume at which solids lock; 0: they never do
+    double solids_diffusivity = 0, crust_diffusivity = 0;  //!< m2/s
+    law::impact::Splash splash;
+    std::string atomisation = "none";  //!< law that gives each nozzle's median instead
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules

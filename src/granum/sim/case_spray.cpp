@@ -14,6 +14,8 @@ using io::Dimension;
 
 namespace
 {
+constexpr double locked_suspension = 0.6;  // recalled: 0.55 to 0.64
+
 //! Flow and momentum of the atomising air from its pressure.
 void read_pressed_air(io::CaseFile& file, std::string const& key, double ambient, NozzleCase& nozzle)
 {
@@ -23,11 +25,11 @@ void read_pressed_air(io::CaseFile& file, std::string const& key, double ambient
     orifice.pressure = file.quantity(key + "air_pressure", Dimension::pressure, std::nullopt,
                                      "of the atomising air before the mouth, absolute; instead of air and air_velocity",
                                      {.low = ambient, .low_allowed = false});
-    orifice.area = file.quantity(key + "air_mouth", Dimension::area, std::nullopt, "through which the air leaves",
-                                 io::positive);
-    orifice.discharge = file.quantity(key + "discharge", Dimension::one, orifice.discharge,
-                                      "share of the mouth that the air fills (recalled)",
-                                      {.low = 0, .high = 1, .low_allowed = false});
+    orifice.area =
+        file.quantity(key + "air_mouth", Dimension::area, std::nullopt, "through which the air leaves", io::positive);
+    orifice.discharge =
+        file.quantity(key + "discharge", Dimension::one, orifice.discharge,
+                      "share of the mouth that the air fills (recalled)", {.low = 0, .high = 1, .low_allowed = false});
     if (!std::isfinite(orifice.pressure + orifice.area)) return;
     double const flow = orifice.mass_flow();
     nozzle.air_mass_flow = flow / (1 + nozzle.air_humidity);
@@ -140,6 +142,25 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
         property("dissociation", Dimension::one, spray.dissociation, "ions per molecule (van 't Hoff)", io::positive);
     spray.contact_angle = property("contact_angle", Dimension::angle, spray.contact_angle, "of a droplet on a granule",
                                    {.low = 0, .high = math::pi, .low_allowed = false});
+    spray.locking = file.quantity("spray.locking", Dimension::one,
+                                  whole && spray.solubility == 0 ? std::optional(locked_suspension) : spray.locking,
+                                  "share of a droplet's volume at which solids at its surface lock; 0: they never do",
+                                  {.low = 0, .high = 0.74});
+    spray.solids_diffusivity =
+        file.quantity("spray.solids_diffusivity", Dimension::diffusivity, spray.solids_diffusivity,
+                      "of the solids in the liquid: slow ones gather at the surface; 0: they do not", io::not_negative);
+    spray.crust_diffusivity =
+        file.quantity("spray.crust_diffusivity", Dimension::diffusivity, spray.crust_diffusivity,
+                      "of vapour through the crust of a droplet; 0: as without a crust", io::not_negative);
+    auto& splash = spray.splash;
+    splash.limit = file.quantity("spray.splash_limit", Dimension::one, splash.limit,
+                                 "Mundo's number Oh Re^1.25 above which droplets splash (recalled)", io::positive);
+    splash.least = file.quantity("spray.splash_least", Dimension::one, splash.least,
+                                 "share of a droplet that splashes off at least (recalled)", io::zero_to_one);
+    splash.range = file.quantity("spray.splash_range", Dimension::one, splash.range,
+                                 "share by which this varies (recalled)", io::zero_to_one);
+    splash.droplets = file.quantity("spray.splash_droplets", Dimension::one, splash.droplets,
+                                    "number of droplets that fly on from one that splashes (recalled)", {.low = 1});
     spray.droplet_median = file.quantity("spray.droplet_median", Dimension::length, spray.droplet_median,
                                          "diameter, of the volume distribution", io::positive);
     spray.droplet_spread = file.quantity("spray.droplet_spread", Dimension::one, spray.droplet_spread,
@@ -147,8 +168,9 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     spray.size = read_sizes(file, "spray.");
     auto atomising = laws_for("spray.atomisation");
     atomising.insert(atomising.begin(), "none");
-    spray.atomisation = file.name("spray.atomisation", spray.atomisation,
-                                  "correlation for the size of the droplets, for trends only", atomising, "a correlation");
+    spray.atomisation =
+        file.name("spray.atomisation", spray.atomisation, "correlation for the size of the droplets, for trends only",
+                  atomising, "a correlation");
     if (spray.size)
         for (auto const* key : {"spray.droplet_median", "spray.droplet_spread"})
             if (file.has(key)) file.mistake(key, "does not go with spray.size", {"give one of the two"});

@@ -95,6 +95,7 @@ void Simulation::each_share(Visit&& visit)
         for (double& sum : *sums) visit(sum);
     visit(mine_.solids), visit(mine_.water), visit(mine_.deposited), visit(mine_.walls), visit(mine_.overspray);
     visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
+    visit(mine_.splashed), visit(mine_.rebounds);
     visit(heat_.contacts), visit(heat_.film), visit(heat_.wall_contacts), visit(heat_.wall_film);
     visit(heat_.wall_gas), visit(heat_.radiation);
     visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);

@@ -15,10 +15,20 @@ SprayTotals Simulation::totals() const
 {
     SprayTotals all = mine_;
     for (auto const& droplet : droplets_) all.in_flight += droplet.solids();
-    std::array<double, 8> sums{all.solids,    all.water,     all.deposited,  all.walls,
-                               all.overspray, all.in_flight, all.evaporated, all.deposited_water};
+    std::array<double, 9> sums{all.solids,    all.water,      all.deposited,       all.walls,   all.overspray,
+                               all.in_flight, all.evaporated, all.deposited_water, all.splashed};
     comm_.sum(sums);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], comm_.sum(all.hits)};
+    return {.solids = sums[0],
+            .water = sums[1],
+            .deposited = sums[2],
+            .walls = sums[3],
+            .overspray = sums[4],
+            .in_flight = sums[5],
+            .evaporated = sums[6],
+            .deposited_water = sums[7],
+            .splashed = sums[8],
+            .hits = comm_.sum(all.hits),
+            .rebounds = comm_.sum(all.rebounds)};
 }
 
 HeatTotals Simulation::heat() const

@@ -273,16 +273,55 @@ void Simulation::fly_droplets(double dt)
         out_[1] += losses->water;
         out_[2] += losses->enthalpy;
     }
-    for (auto const& hit : outcome.hits) receive(hit);
+    for (auto const& hit : outcome.hits)
+        if (auto const rest = receive(hit)) droplets_.push_back(*rest);
     exchange_droplets(std::move(outcome.leaving));
 }
 
-void Simulation::receive(spray::Hit const& hit)
+namespace
 {
-    auto const& droplet = hit.droplet;
+constexpr std::uint32_t most_splashes = 3;  // of a droplet, one out of the other
+constexpr double kept_speed = 0.5;          // of that at impact by what flies on from a granule
+}
+
+std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit)
+{
+    auto droplet = hit.droplet;
     auto const& liquid = flight_.liquid;
     std::size_t const row = hit.row;
-    base::Random random(case_.seed, base::Purpose::impact, droplet.id, 0);
+    base::Random random(case_.seed, base::Purpose::impact, droplet.id, static_cast<std::uint32_t>(steps_));
+    double const sine = std::sqrt(random.uniform());
+    auto const flies_on = [&](spray::Droplet& rest, double speed) {
+        double const up = 2 * random.uniform() - 1, turn = 2 * math::pi * random.uniform();
+        double const side = std::sqrt(1 - up * up);
+        Vec3 const before = rest.velocity;
+        rest.velocity = granules_.velocity[row] + speed * Vec3{side * std::cos(turn), side * std::sin(turn), up};
+        rest.delay = -hit.left;
+        granules_.velocity[row] += rest.mass() / granules_.mass[row] * (before - rest.velocity);
+        return rest;
+    };
+    // What is dry sticks where it falls on a wet spot only.
+    if (droplet.dry(liquid, case_.drying.end_moisture) &&
+        random.uniform() >=
+            drying::Drying::coverage(deposits_->on(granules_.id[row]), granules_.count[row], granules_.diameter[row])) {
+        ++mine_.rebounds;
+        return flies_on(droplet, kept_speed * hit.speed);
+    }
+    std::optional<spray::Droplet> splashed;
+    law::impact::Impact const impact{liquid.density, liquid.viscosity, liquid.surface_tension,
+                                     hit.speed * std::sqrt(1 - sine * sine), droplet.diameter(liquid)};
+    double const share = droplet.crust > 0 ? 0 : flight_.splash.share(impact.mundo(), random.uniform());
+    if (share > 0 && droplet.splashes < most_splashes) {
+        splashed = droplet;
+        splashed->id += std::uint64_t{++splashed->splashes} << 56;
+        splashed->weight *= flight_.splash.droplets;
+        for (double spray::Droplet::*amount : {&spray::Droplet::water, &spray::Droplet::solute}) {
+            splashed.value().*amount *= share / flight_.splash.droplets;
+            droplet.*amount *= 1 - share;
+        }
+        flies_on(*splashed, kept_speed * hit.speed);
+        mine_.splashed += splashed->solids();
+    }
     drying::Arrival const arrival{.weight = droplet.weight,
                                   .water = droplet.water,
                                   .solute = droplet.solute,
@@ -297,7 +336,9 @@ void Simulation::receive(spray::Hit const& hit)
                                   .viscosity = liquid.viscosity,
                                   .surface_tension = liquid.surface_tension,
                                   .contact_angle = liquid.contact_angle,
-                                  .sine = std::sqrt(random.uniform())};
+                                  .sine = sine,
+                                  .splashed = splashed ? share : 0,
+                                  .crust = droplet.crust > 0};
     drying::Local const local{.gas_temperature = seen_.temperature[row],
                               .gas_humidity = air::loading(seen_.vapour_fraction[row]),
                               .pressure = case_.gas.pressure,
@@ -308,6 +349,7 @@ void Simulation::receive(spray::Hit const& hit)
     mine_.deposited += droplet.solids();
     mine_.deposited_water += droplet.liquid_water();
     ++mine_.hits;
+    return splashed;
 }
 
 void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)

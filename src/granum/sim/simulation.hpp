@@ -35,7 +35,9 @@ struct SprayTotals
     double in_flight = 0;                            //!< solids, now
     double evaporated = 0;                           //!< water, from droplets and deposits
     double deposited_water = 0;
-    long hits = 0;
+    double splashed = 0;  //!< solids that flew on from a granule
+    long hits = 0;        //!< parcels that left a deposit
+    long rebounds = 0;    //!< parcels, too dry to stick
 };
 
 //! Heat that passed since the start beside that between gas and granules, over all ranks, J.
@@ -151,7 +153,7 @@ class Simulation
     void feed_all(double now);  //!< Collective.
     void let_out();             //!< takes out, or refuses, what has left the domain. Collective.
     void fly_droplets(double dt);
-    void receive(spray::Hit const& hit);
+    std::optional<spray::Droplet> receive(spray::Hit const& hit);  //!< gives what does not stay on the granule
     void exchange_droplets(std::vector<spray::Droplet> leaving);
     void nozzle_air(double dt);
     void gas_step(double dt);

@@ -161,8 +161,9 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
     }
     if (data.spray.present) {
         auto const& t = last.totals;
-        out["spray"] = {{"sprayed_kg", t.solids}, {"deposited_kg", t.deposited}, {"overspray_kg", t.overspray},
-                        {"on_walls_kg", t.walls}, {"in_flight_kg", t.in_flight}, {"hits", t.hits}};
+        out["spray"] = {{"sprayed_kg", t.solids},    {"deposited_kg", t.deposited}, {"overspray_kg", t.overspray},
+                        {"on_walls_kg", t.walls},    {"in_flight_kg", t.in_flight}, {"hits", t.hits},
+                        {"splashed_kg", t.splashed}, {"rebounds", t.rebounds}};
         out["water"] = {{"sprayed_kg", t.water},
                         {"evaporated_kg", t.evaporated},
                         {"on_granules_kg", last.readings.water_on_granules}};

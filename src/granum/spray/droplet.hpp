@@ -21,7 +21,10 @@ struct Liquid
     double solids_heat_capacity = 1400;                               //!< J/kg/K
     double solubility = 0;                                            //!< kg solids per kg water; 0: a suspension
     double molar_mass = 0.1, dissociation = 1;
-    double contact_angle = 0.7;  //!< rad
+    double contact_angle = 0.7;     //!< rad
+    double locking = 0;             //!< share of the volume at which solids at the surface lock; 0: they never do
+    double solids_diffusivity = 0;  //!< of the solids in the liquid, m2/s; 0: as fast as the surface recedes
+    double crust_diffusivity = 0;   //!< of vapour in the crust, m2/s; 0: as in free gas
     double feed_moisture() const { return (1 - solids_fraction) / solids_fraction; }
 };
 
@@ -33,6 +36,8 @@ struct Droplet
     double water = 0, solute = 0;  //!< kg of one real droplet
     double temperature = 0;        //!< K, uniform
     double age = 0, path = 0;      //!< s, m
+    double crust = 0;              //!< m, diameter at which its solids locked; 0: they have not
+    std::uint32_t splashes = 0;    //!< that it has come from
     law::dispersion::Eddy eddy{};  //!< of the gas that it sees
     double delay = 0;              //!< s of the coming step that pass before it flies; negative: s that it lags behind
 
@@ -41,9 +46,17 @@ struct Droplet
     double liquid_water() const { return weight * water; }
     double mass() const { return weight * (water + solute); }
 
-    //! m, of a real droplet: volumes of water and solids add up to that of the feed at the feed's moisture.
+    //! Has it dried to a grain, or has it a crust? Such a droplet sticks only where it falls on a wet spot.
+    bool dry(Liquid const& liquid, double end_moisture) const
+    {
+        return crust > 0 || water < end_moisture * liquid.feed_moisture() * solute;
+    }
+
+    //! m, of a real droplet: volumes of water and solids add up to that of the feed at the feed's moisture, until its
+    //! solids lock.
     double diameter(Liquid const& liquid) const
     {
+        if (crust > 0) return crust;
         double const feed = solute / liquid.solids_fraction;  // mass when it left the nozzle
         double const lost = feed - (water + solute);          // water that has evaporated since
         double const volume = feed / liquid.density - lost / material::water_density;

@@ -1,5 +1,6 @@
 #include "granum/spray/flight.hpp"
 
+#include "granum/law/droplet/crust.hpp"
 #include "granum/law/droplet/evaporation.hpp"
 
 #include <algorithm>
@@ -90,6 +91,16 @@ class Fluctuations
     double least_;
 };
 
+//! Locks the solids where those at the surface of a droplet that loses `rate` kg/s leave no more room between them.
+void lock(Droplet& droplet, Liquid const& liquid, double diameter, double rate)
+{
+    double const now = droplet.diameter(liquid);
+    double const solids = droplet.solute / liquid.solids_density / (math::pi / 6 * now * now * now);
+    double const recedes = std::max(0.0, 4 * rate / (math::pi * diameter * air::water_density));  // m2/s
+    double const peclet = liquid.solids_diffusivity > 0 ? recedes / (8 * liquid.solids_diffusivity) : 0;
+    if (law::droplet::surface_enrichment(peclet) * solids >= liquid.locking) droplet.crust = now;
+}
+
 void lose(Losses& losses, Droplet const& droplet, Liquid const& liquid)
 {
     losses.solids += droplet.solids();
@@ -106,10 +117,20 @@ Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& se
     double const activity =
         law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation);
     law::droplet::Air const gas{seen.temperature, seen.vapour_fraction, settings.pressure};
-    law::droplet::Drop drop{droplet.diameter(liquid), droplet.temperature, activity, slip};
-    auto const rates = law::droplet::evaporation(drop, gas);
-    drop.temperature += 0.05;
-    auto const warmer = law::droplet::evaporation(drop, gas);
+    double const diameter = droplet.diameter(liquid);
+    auto const rates_at = [&](double temperature) {
+        law::droplet::Drop const drop{diameter, temperature, activity, slip};
+        auto rates = law::droplet::evaporation(drop, gas);
+        if (droplet.water <= 0) rates.mass = 0;
+        if (droplet.crust > 0 && liquid.crust_diffusivity > 0) {
+            double const core =
+                law::droplet::wet_core(droplet.water / air::water_density, diameter, 1 - liquid.locking);
+            rates.mass *= law::droplet::through_crust(rates.transfer, liquid.crust_diffusivity, core);
+        }
+        return rates;
+    };
+    auto const rates = rates_at(droplet.temperature);
+    auto const warmer = rates_at(droplet.temperature + 0.05);
     // Temperature by one linearised implicit step: small droplets relax faster than dt.
     auto const net = [](law::droplet::Rates const& r, double t) {
         return r.heat - r.mass * air::evaporation_enthalpy(t);
@@ -125,6 +146,7 @@ Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& se
     double const enthalpy = vapour * air::vapour_enthalpy(droplet.temperature);
     droplet.water -= leaving;
     droplet.temperature += rise;
+    if (liquid.locking > 0 && droplet.crust == 0) lock(droplet, liquid, diameter, leaving / dt);
     // Whatever the droplet's enthalpy changed by, beyond the vapour's, was heat of the gas.
     double const heat = droplet.enthalpy(liquid) - before + enthalpy;
     return {.vapour = vapour, .enthalpy = enthalpy - heat, .momentum = vapour * droplet.velocity};
@@ -134,7 +156,6 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
          Surroundings& around, double dt, std::uint32_t step, Outcome& outcome)
 {
     Liquid const& liquid = settings.liquid;
-    double const dust = settings.end_moisture * liquid.feed_moisture();
     std::vector<Target> targets;
     std::size_t kept = 0;
     for (std::size_t n = 0; n < droplets.size(); ++n) {
@@ -161,9 +182,6 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
             if (!chamber.inside(droplet.position) || chamber.parted(place, droplet.position)) {
                 lose(droplet.position.z >= chamber.top() ? outcome.overspray : outcome.walls, droplet, liquid);
                 gone = true;
-            } else if (droplet.water < dust * droplet.solute) {
-                lose(outcome.overspray, droplet, liquid);  // dried in flight: dust
-                gone = true;
             } else if (seen.solids_fraction > 1e-6) {
                 around.targets(place, targets);
                 double total = 0;
@@ -181,7 +199,7 @@ void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometr
                     std::size_t choice = 0;
                     while (choice + 1 < targets.size() && (pick -= targets[choice].chance) > 0) ++choice;
                     outcome.hits.push_back(
-                        {droplet, targets[choice].row, math::norm(droplet.velocity - targets[choice].velocity)});
+                        {droplet, targets[choice].row, math::norm(droplet.velocity - targets[choice].velocity), left});
                     gone = true;
                 }
             }

@@ -9,6 +9,7 @@
 #include "granum/geometry/chamber.hpp"
 #include "granum/law/capture/all.hpp"
 #include "granum/law/dispersion/all.hpp"
+#include "granum/law/impact/splash.hpp"
 #include "granum/spray/droplet.hpp"
 
 #include <optional>
@@ -61,6 +62,7 @@ struct Hit
     Droplet droplet;
     std::size_t row;
     double speed;  //!< relative, m/s
+    double left;   //!< s of the step that it had still to fly
 };
 
 struct Losses
@@ -83,13 +85,15 @@ struct FlightSettings
     law::capture::Any capture;
     Vec3 gravity;
     double pressure = 101325;
-    double end_moisture = 0.01;  //!< of the feed's: below it a droplet is dust
+    double end_moisture = 0.01;  //!< of the feed's: below it a droplet is dry
+    law::impact::Splash splash;
     double longest_hop = 0.005;  //!< m that a droplet may move in a sub-step
     law::dispersion::Any dispersion = law::dispersion::NoDispersion{};
     std::uint32_t seed = 1;
 };
 
-//! Moves the droplets for `dt`. `step` numbers the gas step for the random streams.
+//! Moves the droplets for `dt`. Those that dry on the way fly on as dust. `step` numbers the gas step for the random
+//! streams.
 void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometry::Chamber const& chamber,
          Surroundings& around, double dt, std::uint32_t step, Outcome& outcome);
 

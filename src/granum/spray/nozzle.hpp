@@ -25,7 +25,7 @@ struct Nozzle
     double droplet_velocity = 30;                              //!< m/s at the exit
     double droplet_temperature = 298.15;                       //!< K
     double rate = 0;                                           //!< kg/s of liquid
-    double median = 40e-6, spread = 1.6;  //!< of the volume distribution: m, geometric standard deviation
+    double median = 40e-6, spread = 1.6;                //!< of the volume distribution: m, geometric standard deviation
     std::optional<particle::SizeDistribution> sizes{};  //!< instead of the log-normal distribution
     double parcels_per_second = 2e4;
     std::uint64_t number = 0;  //!< among the nozzles: none shares identities or draws with another

@@ -100,8 +100,11 @@ TEST(Impact, has_the_dimensionless_numbers_of_a_known_example)
     EXPECT_NEAR(hit.mundo(), 33, 0.5);
     EXPECT_NEAR(hit.ohnesorge(), std::sqrt(hit.weber()) / hit.reynolds(), 1e-12);
     EXPECT_NEAR(hit.mundo(), hit.ohnesorge() * std::pow(hit.reynolds(), 1.25), 1e-10);
-    EXPECT_FALSE(impact::splashes(hit));
-    EXPECT_TRUE(impact::splashes({1100, 2e-3, 0.06, 100, 40e-6}));
+    impact::Splash const splash;
+    EXPECT_EQ(splash.share(hit.mundo(), 0.5), 0);
+    impact::Impact const fast{1100, 2e-3, 0.06, 100, 40e-6};
+    EXPECT_NEAR(splash.share(fast.mundo(), 0.5), 0.2 + 0.5 * 0.6, 1e-15);
+    EXPECT_EQ((impact::Splash{.least = 0.9}.share(fast.mundo(), 1)), 1);
 }
 
 TEST(Cap, has_the_shape_of_independent_numbers)

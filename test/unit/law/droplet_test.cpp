@@ -1,5 +1,6 @@
 // Droplets in flight: rates and their limits, then whole lives integrated and compared with tables and an experiment.
 #include "granum/base/random.hpp"
+#include "granum/law/droplet/crust.hpp"
 #include "granum/law/droplet/evaporation.hpp"
 #include "granum/law/droplet/size.hpp"
 #include "granum/law/vapour/film.hpp"
@@ -225,5 +226,25 @@ TEST(RosinRammler, has_the_percentiles_and_means_of_the_reference_case)
         expect(size.sauter(), "d32_m");
         expect(size.volume_mean(), "volume_mean_d43_m");
     }
+}
+
+TEST(Crust, gathers_solids_at_the_surface_as_vehring_says)
+{
+    EXPECT_EQ(droplet::surface_enrichment(0), 1);
+    EXPECT_NEAR(droplet::surface_enrichment(1), 1 + 0.2 + 0.01 - 0.00025, 1e-15);
+    EXPECT_NEAR(droplet::surface_enrichment(10), 1 + 2 + 1 - 0.25, 1e-15);
+    EXPECT_EQ(droplet::surface_enrichment(50), droplet::surface_enrichment(20));
+}
+
+TEST(Crust, is_a_shell_in_series_with_the_film)
+{
+    // A core of half the diameter behind 1e-6 m2/s, film of 2 * 2.6e-5: 1 / (1 + 26 (2 - 1)).
+    EXPECT_NEAR(droplet::through_crust(5.2e-5, 1e-6, 0.5), 1.0 / 27, 1e-15);
+    EXPECT_EQ(droplet::through_crust(5.2e-5, 1e-6, 1), 1);
+    EXPECT_EQ(droplet::through_crust(5.2e-5, 1e-6, 0), 0);
+    // Pores that hold an eighth of what they could are wet to half the diameter.
+    double const all = 0.4 * granum::math::pi / 6 * 1e-12;
+    EXPECT_NEAR(droplet::wet_core(all / 8, 1e-4, 0.4), 0.5, 1e-12);
+    EXPECT_EQ(droplet::wet_core(2 * all, 1e-4, 0.4), 1);
 }
 }

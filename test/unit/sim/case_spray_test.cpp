@@ -50,8 +50,9 @@ std::string mistakes_of(std::string const& text)
 
 TEST(NozzleCase, has_the_air_that_its_pressure_drives)
 {
-    auto const data = scene::case_of(with("", "air_pressure = \"3 bar\"\nair_mouth = \"1 mm2\"\ndischarge = 1\n"
-                                              "air_temperature = \"293 K\"\nair_humidity = \"5 g/kg\"\n"));
+    auto const data = scene::case_of(with("",
+                                          "air_pressure = \"3 bar\"\nair_mouth = \"1 mm2\"\ndischarge = 1\n"
+                                          "air_temperature = \"293 K\"\nair_humidity = \"5 g/kg\"\n"));
     auto const nozzle = sim::nozzles(data).at(0);
     EXPECT_NEAR(nozzle.air_mass_flow, 7.083e-4, 5e-8);
     EXPECT_NEAR(nozzle.momentum(), 1.26 * 7.083e-4 * 313, 0.002);
@@ -99,11 +100,10 @@ TEST(SprayCase, takes_the_size_of_its_droplets_from_a_correlation)
     double const ratio = of("walzel", "2 mm").median / of("walzel", "1 mm").median;
     EXPECT_GT(ratio, 1.48);
     EXPECT_LT(ratio, std::pow(2, 0.6));
-    auto const both = mistakes_of(
-        with("atomisation = \"walzel\"\ndroplet_median = \"40 um\"\n", air + "bore = \"1 mm\"\n"));
+    auto const both =
+        mistakes_of(with("atomisation = \"walzel\"\ndroplet_median = \"40 um\"\n", air + "bore = \"1 mm\"\n"));
     EXPECT_NE(both.find("does not go with spray.atomisation"), std::string::npos) << both;
-    auto const no_pressure =
-        mistakes_of(with("atomisation = \"walzel\"\n", "air = \"1 kg/h\"\nbore = \"1 mm\"\n"));
+    auto const no_pressure = mistakes_of(with("atomisation = \"walzel\"\n", "air = \"1 kg/h\"\nbore = \"1 mm\"\n"));
     EXPECT_NE(no_pressure.find("nozzle[0].air_pressure"), std::string::npos) << no_pressure;
 }
 }

@@ -210,4 +210,31 @@ TEST(SprayedBed, accounts_for_all_that_was_sprayed)
     EXPECT_LT(simulation->ledgers().energy.relative_error(), 1e-6);
     EXPECT_LT(simulation->ledgers().momentum, 1e-12);
 }
+
+TEST(SprayedBed, accounts_for_what_splashes_and_for_dust_that_does_not_stick)
+{
+    // A suspension in fine droplets that lock before they reach the bed, and coarse ones that all splash.
+    for (bool const splash : {true, false}) {
+        auto text = spray_bed;
+        auto const at = text.find("[spray]\n") + 8;
+        text.insert(at, splash ? "splash_limit = 0.1\n" : "solubility = 0\nlocking = 0.3\nsplash_limit = 1e9\n");
+        auto const simulation = scene::simulation_of(text);
+        while (simulation->time() < 0.08 * (1 - 1e-12)) simulation->step(0.08 - simulation->time());
+        auto const t = simulation->totals();
+        EXPECT_EQ(t.splashed > 0, splash);
+        EXPECT_GT(t.deposited, 0);
+        if (!splash) EXPECT_GT(t.rebounds, 10);
+        EXPECT_NEAR(t.deposited + t.walls + t.overspray + t.in_flight, t.solids, 1e-12 * t.solids);
+        double shares = 0, crusted = 0, events = 0;
+        for (auto const& event : simulation->take_events())
+            if (event.initial == 0) shares += event.splashed, crusted += event.crust, ++events;
+        ASSERT_GT(events, 10);
+        if (splash) EXPECT_NEAR(shares / events, 0.5, 0.2);  // some are the second droplet of one that has splashed
+        if (splash) EXPECT_EQ(crusted, 0);
+        EXPECT_LT(simulation->ledgers().solids.relative_error(), 1e-9);
+        EXPECT_LT(simulation->ledgers().water.relative_error(), 1e-9);
+        EXPECT_LT(simulation->ledgers().energy.relative_error(), 1e-6);
+        EXPECT_LT(simulation->ledgers().momentum, 1e-12);
+    }
+}
 }

@@ -161,10 +161,11 @@ TEST(Evaporation, in_flight_follows_the_d2_law_with_independent_constants)
         for (int n = 0; n < 1400; ++n) flight.step(dt);
         EXPECT_NEAR((early - square()) / (1400 * dt), row.rate, 0.005 * row.rate);
         EXPECT_NEAR(flight.droplets.at(0).temperature - zero_celsius, row.surface, 0.05);
-        // It ends as dust, at the end of its life.
-        for (int n = 0; n < 500 && !flight.droplets.empty(); ++n) flight.step(dt);
-        EXPECT_TRUE(flight.droplets.empty());
-        EXPECT_GT(flight.outcome.overspray.solids, 0);
+        // It ends as dust that flies on, at the end of its life, and has the gas's temperature then.
+        for (int n = 0; n < 500; ++n) flight.step(dt);
+        auto const& dust = flight.droplets.at(0);
+        EXPECT_TRUE(dust.dry(water(), 0.01));
+        EXPECT_NEAR(dust.temperature - zero_celsius, row.celsius, 0.1);
     }
 }
 
@@ -174,14 +175,46 @@ TEST(Evaporation, of_a_small_droplet_in_long_steps_stays_between_wet_bulb_and_ga
     flight.settings.liquid = {.density = 1130, .solids_fraction = 0.3};
     flight.around.everywhere = gas(80, 0.008);
     flight.droplets = {droplet(flight.settings.liquid, 5e-6, 25, {0.5, 0.5, 0.5})};
-    for (int n = 0; n < 40 && !flight.droplets.empty(); ++n) {
+    for (int n = 0; n < 40; ++n) {
         flight.step(5e-4);
-        if (flight.droplets.empty()) break;
         EXPECT_GE(flight.droplets[0].temperature, 24.9 + zero_celsius);
         EXPECT_LE(flight.droplets[0].temperature, 80 + zero_celsius);
         EXPECT_GE(flight.droplets[0].water, 0);
     }
-    EXPECT_TRUE(flight.droplets.empty());
+    EXPECT_TRUE(flight.droplets[0].dry(flight.settings.liquid, 0.01));
+}
+
+TEST(Crust, freezes_the_diameter_where_solids_fill_their_share)
+{
+    // 25 % of chalk by mass is 1190 * 0.25 / 2710 = 0.10978 by volume; locked at 0.6 the droplet is
+    // (0.10978/0.6)^(1/3).
+    Flight flight;
+    auto& liquid = flight.settings.liquid = {.density = 1190, .solids_density = 2710, .solids_fraction = 0.25};
+    liquid.locking = 0.6;
+    flight.around.everywhere = gas(60, 0.008);
+    flight.droplets = {droplet(liquid, 50e-6, 25, {0.5, 0.5, 0.5})};
+    auto const life = [&](double until) {
+        int n = 0;
+        while (flight.droplets[0].water > until * flight.droplets[0].solute && n < 100000) flight.step(2e-4), ++n;
+        return 2e-4 * n;
+    };
+    double const locking = life(0.2);
+    double const frozen = flight.droplets[0].diameter(liquid);
+    EXPECT_NEAR(frozen, 50e-6 * std::cbrt(0.10978 / 0.6), 0.01 * frozen);
+    EXPECT_TRUE(flight.droplets[0].dry(liquid, 0.01));
+    double const rest = life(0.01);
+    EXPECT_EQ(flight.droplets[0].diameter(liquid), frozen);
+
+    // Through a crust of a hundredth of the diffusivity the rest takes longer; till then nothing has changed.
+    liquid.crust_diffusivity = 2.6e-7;
+    flight.droplets = {droplet(liquid, 50e-6, 25, {0.5, 0.5, 0.5})};
+    EXPECT_EQ(life(0.2) > 0.9 * locking, true);
+    EXPECT_GT(life(0.01), 3 * rest);
+    // Slow solids gather at the surface: it locks larger.
+    liquid.crust_diffusivity = 0, liquid.solids_diffusivity = 1e-10;
+    flight.droplets = {droplet(liquid, 50e-6, 25, {0.5, 0.5, 0.5})};
+    life(0.2);
+    EXPECT_GT(flight.droplets[0].diameter(liquid), 1.05 * frozen);
 }
 
 //! Many droplets that shoot about in a bed.

@@ -11,11 +11,11 @@ namespace granum::law::atomising
 //! A nozzle at work, SI units.
 struct Atomisation
 {
-    double liquid_flow, air_flow;                 //!< kg/s
-    double air_excess_pressure;                   //!< Pa above the chamber's
-    double air_density, air_velocity;             //!< kg/m3, m/s at the mouth, relative to the liquid
-    double density, viscosity, surface_tension;   //!< of the liquid
-    double bore;                                  //!< m, diameter of the liquid's mouth
+    double liquid_flow, air_flow;                //!< kg/s
+    double air_excess_pressure;                  //!< Pa above the chamber's
+    double air_density, air_velocity;            //!< kg/m3, m/s at the mouth, relative to the liquid
+    double density, viscosity, surface_tension;  //!< of the liquid
+    double bore;                                 //!< m, diameter of the liquid's mouth
 
     double liquid_over_air() const { return liquid_flow / air_flow; }
     double ohnesorge() const { return viscosity / std::sqrt(density * surface_tension * bore); }
@@ -50,8 +50,7 @@ struct LorenzettoLefebvre
         double const more = std::pow(1 + at.liquid_over_air(), 1.7);
         double const inertia = std::pow(at.surface_tension * at.liquid_flow, 0.33) /
                                (at.air_velocity * std::pow(at.density, 0.37) * std::pow(at.air_density, 0.30));
-        double const viscous =
-            at.viscosity * std::sqrt(at.bore / (at.density * at.surface_tension));
+        double const viscous = at.viscosity * std::sqrt(at.bore / (at.density * at.surface_tension));
         return (0.95 * inertia + 0.13 * viscous) * more;
     }
 };

@@ -13,11 +13,11 @@ namespace granum::law::atomising
 {
 struct Orifice
 {
-    double pressure;                              //!< Pa, absolute, of the air at rest before the mouth
-    double temperature;                           //!< K, of the air at rest
-    double ambient;                               //!< Pa, absolute, behind the mouth; below `pressure`
-    double area;                                  //!< m2 of the mouth
-    double discharge = 0.8;                       //!< share of the area that the stream fills (recalled)
+    double pressure;                               //!< Pa, absolute, of the air at rest before the mouth
+    double temperature;                            //!< K, of the air at rest
+    double ambient;                                //!< Pa, absolute, behind the mouth; below `pressure`
+    double area;                                   //!< m2 of the mouth
+    double discharge = 0.8;                        //!< share of the area that the stream fills (recalled)
     double exponent = 1.4, gas_constant = 287.05;  //!< of air: ratio of heat capacities; J/kg/K
 
     //! Pressure at the mouth over that before it at which the air is as fast as sound: 0.5283 for air.

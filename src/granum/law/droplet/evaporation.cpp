@@ -56,7 +56,7 @@ Rates evaporation(Drop const& drop, Air const& air)
     }
     double const heat =
         math::pi * drop.diameter * conductivity * nusselt * (air.temperature - drop.temperature) * log_ratio(outflow);
-    return {mass, heat};
+    return {mass, heat, sherwood * film.diffusivity};
 }
 
 double equilibrium_temperature(Drop drop, Air const& air)

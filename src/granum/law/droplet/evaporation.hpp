@@ -23,8 +23,9 @@ struct Air
 
 struct Rates
 {
-    double mass;  //!< kg/s of water leaving; negative where it condenses
-    double heat;  //!< W into the drop by convection
+    double mass;          //!< kg/s of water leaving; negative where it condenses
+    double heat;          //!< W into the drop by convection
+    double transfer = 0;  //!< Sherwood number times diffusivity, m2/s
 };
 
 //! Rates of `drop` in `air`. Without a heat of evaporation: the drop's energy falls by mass * L.

@@ -1,8 +1,10 @@
-// The numbers that tell what a droplet does when it strikes a granule, and the limit above which it splashes.
+// The numbers that tell what a droplet does when it strikes a granule, and how much of it splashes off.
 //
-// Source of the limit: Mundo, Sommerfeld and Tropea, Int. J. Multiphase Flow 21 (1995) 151 (recalled, unverified).
+// Source of the limit: Mundo, Sommerfeld and Tropea, Int. J. Multiphase Flow 21 (1995) 151 (recalled, unverified). How
+// much splashes off and into how many droplets varies widely; share and number are recalled, unverified defaults.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace granum::law::impact
@@ -23,10 +25,16 @@ struct Impact
     double mundo() const { return std::sqrt(weber()) * std::pow(reynolds(), 0.25); }
 };
 
-inline constexpr double splash_limit = 57.7;  //!< of K
-
-inline bool splashes(Impact const& impact)
+struct Splash
 {
-    return impact.mundo() > splash_limit;
-}
+    double limit = 57.7;              //!< of K
+    double least = 0.2, range = 0.6;  //!< share of the mass that splashes off: least + range times a uniform number
+    double droplets = 4;              //!< into which it parts
+
+    //! Share of the droplet's mass that splashes off, with `uniform` drawn from 0 to 1.
+    double share(double mundo, double uniform) const
+    {
+        return mundo > limit ? std::min(1.0, least + range * uniform) : 0;
+    }
+};
 }
