@@ -19,21 +19,26 @@ double Drying::coverage(std::vector<Deposit> const& deposits, double count, doub
 }
 
 Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, double saturation, double sherwood,
-                              double diameter) const
+                              double diameter, double relative_humidity, double gas_over_surface) const
 {
     Liquid const& liquid = settings_.liquid;
     double const moisture = deposit.water / deposit.solute;
-    double const activity =
-        law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation);
-    film.surface_fraction = law::vapour::mass_fraction(activity * saturation);
+    law::deposit::Stage const stage{
+        .activity = law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation),
+        .moisture = moisture,
+        .equilibrium = settings_.equilibrium_moisture,
+        .relative_humidity = relative_humidity,
+        .gas_over_surface = gas_over_surface};
+    auto const drive = std::visit([&](auto const& law) { return law(stage); }, settings_.stages);
+    film.surface_fraction = law::vapour::mass_fraction(drive.activity * saturation);
     // The contact line is pinned: the cap flattens as it loses volume.
     double const volume =
         (deposit.water / air::water_density + deposit.solute / liquid.solids_density) / deposit.weight;
     double const angle = law::wetting::pinned_angle(volume, deposit.base_radius);
-    double const falling = law::deposit::falling_rate(moisture, settings_.critical_moisture);
     double const area = law::wetting::cap_area(deposit.base_radius, angle);
-    return {falling * law::deposit::cap_rate(deposit.base_radius, angle, film),
-            falling * law::deposit::boundary_layer_rate(sherwood, diameter, area, film)};
+    return {.cap = drive.factor * law::deposit::cap_rate(deposit.base_radius, angle, film),
+            .layer = drive.factor * law::deposit::boundary_layer_rate(sherwood, diameter, area, film),
+            .film = drive.factor * law::deposit::boundary_layer_rate(sherwood, diameter, math::pi * diameter * diameter, film)};
 }
 
 void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
@@ -52,11 +57,16 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             law::deposit::film(temperature, 1.0, seen.temperature[row], seen.vapour_fraction[row], settings_.pressure);
 
         limit.clear();
-        double sum = 0;
+        double sum = 0, area = 0;
+        double const humidity = air::relative_humidity(
+            seen.temperature[row], air::loading(seen.vapour_fraction[row]), settings_.pressure);
         for (auto const& deposit : open) {
-            limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter));
+            limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter, humidity,
+                                   seen.temperature[row] / temperature));
             sum += deposit.weight * limit.back().cap;
+            area += deposit.weight * deposit.base_radius * deposit.base_radius;
         }
+        bool const one_film = math::pi * area > settings_.film_coverage * count * math::pi * diameter * diameter;
         double const full =
             law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
         double lost = 0, dried_solids = 0, dried_volume = 0;
@@ -64,10 +74,13 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
         for (std::size_t k = 0; k < open.size(); ++k) {
             Deposit& deposit = open[k];
             double const foot = math::pi * deposit.base_radius * deposit.base_radius;
+            // Of one film each deposit has its share by area.
             double const rate =
-                std::visit([&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
-                           settings_.combine);
-            double const dry = settings_.end_moisture * liquid.feed_moisture * deposit.solute;
+                one_film
+                    ? limit[k].film * count * deposit.base_radius * deposit.base_radius / area
+                    : std::visit([&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
+                                 settings_.combine);
+            double const dry = dry_water(deposit.solute);
             double const leaving = deposit.weight * rate * dt;
             double fraction = 1;  // of the step until the deposit is dry
             double gone = leaving;
@@ -75,7 +88,7 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             if (ends) {
                 // One that arrives as dry as that still meets the gas for a moment, so that its means are not 0 / 0.
                 fraction = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 1e-9, 1.0) : 1;
-                gone = deposit.water;
+                gone = std::max(0.0, deposit.water - settings_.equilibrium_moisture * deposit.solute);
             }
             double const moisture = deposit.water / deposit.solute;
             double const h = fraction * dt;
@@ -117,7 +130,8 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
         open.resize(kept);
         evaporated[row] = lost;
         granules.water[row] -= lost;
-        if (open.empty() && std::abs(granules.water[row]) < 1e-15 * granules.core_mass[row]) {
+        if (open.empty() && settings_.equilibrium_moisture == 0 &&
+            std::abs(granules.water[row]) < 1e-15 * granules.core_mass[row]) {
             // Only rounding is left; it stays in the ledger as evaporated.
             evaporated[row] += granules.water[row];
             granules.water[row] = 0;

@@ -1,13 +1,15 @@
 // Drying of the deposits on each granule, their solids joining the layer, and the events that say how it went.
 //
 // Every cap on a granule has the granule's temperature. Its evaporation lies between that of an isolated cap and its
-// share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2). A deposit is dry when its
-// moisture has fallen to `end_moisture` of the feed's; the trace left then evaporates in the same step.
+// share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2); where they cover nearly all of the
+// granule they dry as one film. A deposit is dry when its moisture has fallen to `end_moisture` of the feed's above that of
+// equilibrium; the trace left above equilibrium then evaporates in the same step, the rest stays in the layer.
 #pragma once
 
 #include "granum/drying/deposits.hpp"
 #include "granum/law/deposit/all.hpp"
 #include "granum/law/deposit/rates.hpp"
+#include "granum/law/deposit/stages.hpp"
 #include "granum/particle/store.hpp"
 
 #include <functional>
@@ -30,8 +32,10 @@ struct Settings
 {
     law::deposit::Any combine;
     Liquid liquid;
-    double critical_moisture = 0;  //!< kg/kg; falling rate below, 0: none
-    double end_moisture = 0.01;    //!< of the feed's moisture
+    law::deposit::AnyStages stages{};
+    double equilibrium_moisture = 0;  //!< kg/kg that stays in the layer
+    double end_moisture = 0.01;       //!< of the feed's moisture, above that of equilibrium
+    double film_coverage = 0.9;       //!< above it the deposits of a granule dry as one film
     double pressure = 101325;      //!< Pa
     //! Layer porosity of an element that met (mean local drying potential, drying time, moisture at impact).
     std::function<double(double, double, double)> porosity;
@@ -56,14 +60,20 @@ class Drying
     //! Wet fraction of the surface of a real granule under these deposits, at most 1.
     static double coverage(std::vector<Deposit> const& deposits, double count, double diameter);
 
-    //! The two limits of one cap's evaporation, kg/s: alone on its granule, and through the granule's boundary layer
-    //! over its own surface. Flattened by what it has lost, with its own water activity and falling rate.
+    //! The limits of one cap's evaporation, kg/s: alone on its granule, through the granule's boundary layer over its own
+    //! surface, and over the whole granule. Flattened by what it has lost, with its own water activity and falling rate.
     struct Limits
     {
         double cap, layer;
+        double film;  //!< if all of the granule were under it
     };
-    Limits limits(Deposit const& deposit, law::deposit::Film film, double saturation, double sherwood,
-                  double diameter) const;
+    Limits limits(Deposit const& deposit, law::deposit::Film film, double saturation, double sherwood, double diameter,
+                  double relative_humidity, double gas_over_surface) const;
+    //! kg of water, all caps together, at which a deposit of these kg of solids counts as dry.
+    double dry_water(double solute) const
+    {
+        return (settings_.end_moisture * settings_.liquid.feed_moisture + settings_.equilibrium_moisture) * solute;
+    }
 
     Settings const& settings() const { return settings_; }
 

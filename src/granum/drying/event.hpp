@@ -20,7 +20,7 @@ struct Event
     double droplet_diameter, moisture_at_impact, droplet_temperature, age, path, normal_speed, tangential_speed;
     double weber, reynolds, ohnesorge, mundo, splashed, crust;
     double gas_temperature, gas_humidity, relative_humidity, drying_potential, granule_temperature, granule_moisture;
-    double coverage, solids_fraction, slip;
+    double coverage, solids_fraction, slip, merged;
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
 };
@@ -56,7 +56,8 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"coverage", "1", "wet fraction of the granule's surface at impact"},
     {"solids_fraction", "1", "of the bed around the granule at impact"},
     {"slip", "m/s", "superficial gas speed relative to the granule at impact"},
-    {"drying_time", "s", "from impact to dry"},
+    {"merged", "1", "droplets that lay wet on the spot and were joined by this one"},
+    {"drying_time", "s", "from the last impact to dry"},
     {"mean_gas_temperature", "K", "mean over the drying time"},
     {"mean_gas_humidity", "kg/kg", "mean loading over the drying time"},
     {"mean_drying_potential", "1", "mean local drying potential over the drying time"},

@@ -5,8 +5,48 @@
 #include "granum/law/wetting/footprint.hpp"
 #include "granum/material/moist_air.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace granum::drying
 {
+namespace
+{
+//! Of equal caps a part of that number.
+Deposit part_of(Deposit whole, double share)
+{
+    for (double Deposit::*amount : {&Deposit::weight, &Deposit::water, &Deposit::solute, &Deposit::water_at_impact})
+        whole.*amount *= share;
+    return whole;
+}
+
+//! Droplets of `fresh` fall each on one cap of a deposit, drawn by area; what is left over of either stays alone.
+void join(std::vector<Deposit>& open, Deposit const& fresh, double draw, Arrival const& droplet)
+{
+    double area = 0;
+    for (auto const& one : open) area += one.weight * one.base_radius * one.base_radius;
+    std::size_t k = 0;
+    for (double left = draw * area; k + 1 < open.size(); ++k)
+        if ((left -= open[k].weight * open[k].base_radius * open[k].base_radius) < 0) break;
+    double const pairs = std::min(fresh.weight, open[k].weight);
+    Deposit const below = part_of(open[k], pairs / open[k].weight);
+    Deposit both = part_of(fresh, pairs / fresh.weight);
+    both.water += below.water, both.solute += below.solute, both.water_at_impact += below.water;
+    // The wider of both contact lines, or that of a cap at rest of both.
+    double const volume = (both.water + both.solute) / pairs / droplet.density;
+    both.base_radius = std::max({below.base_radius, fresh.base_radius,
+                                 law::wetting::cap_base_radius(std::cbrt(6 / math::pi * volume), droplet.contact_angle)});
+    both.record.merged = below.record.merged + 1;
+    both.record.initial = std::max(both.record.initial, below.record.initial);
+    double const rest = open[k].weight - pairs, over = fresh.weight - pairs;
+    if (rest > 1e-12 * open[k].weight)
+        open[k] = part_of(open[k], rest / open[k].weight), open.push_back(both);
+    else
+        open[k] = both;
+    if (over > 1e-12 * fresh.weight) open.push_back(part_of(fresh, over / fresh.weight));
+}
+}
+
 void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arrival const& droplet, Local const& local,
              double now)
 {
@@ -55,7 +95,10 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     granules.water[row] += fresh.water;
     granules.solute[row] += fresh.solute;
     granules.enthalpy[row] += droplet.enthalpy;
-    open.push_back(fresh);
+    if (droplet.draw < record.coverage)
+        join(open, fresh, droplet.draw / record.coverage, droplet);
+    else
+        open.push_back(fresh);
     resize_granule(granules, row);
 }
 }

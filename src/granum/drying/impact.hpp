@@ -21,6 +21,7 @@ struct Arrival
     double sine = 0;      //!< of the angle between path and surface normal at the impact point
     double splashed = 0;  //!< share of the mass that has splashed off
     bool crust = false;   //!< solids had locked
+    double draw = 1;      //!< from 0 to 1: below the granule's coverage the droplet falls on a wet deposit and joins it
 };
 
 //! What the granule sees at the moment of impact.

@@ -329,7 +329,18 @@ drying::Settings drying_settings(Case const& data)
                        .molar_mass = s.molar_mass,
                        .dissociation = s.dissociation,
                        .feed_moisture = spray_liquid(data).feed_moisture()};
-    settings.critical_moisture = data.drying.critical_moisture;
+    settings.stages = named<law::deposit::Stages>(data.drying.stages);
+    std::visit(
+        [&](auto& law) {
+            using Law = std::decay_t<decltype(law)>;
+            if constexpr (std::is_same_v<Law, law::deposit::FallingRate>)
+                law = {.critical = data.drying.critical_moisture, .exponent = data.drying.falling_exponent};
+            else
+                law = {.a = data.drying.rea[0], .b = data.drying.rea[1], .c = data.drying.rea[2]};
+        },
+        settings.stages);
+    settings.equilibrium_moisture = data.drying.equilibrium_moisture;
+    settings.film_coverage = data.drying.film_coverage;
     settings.end_moisture = data.drying.end_moisture;
     settings.pressure = data.gas.pressure;
     settings.porosity = [model = porosity_model(data)](double potential, double time, double moisture) {

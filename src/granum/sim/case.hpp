@@ -312,7 +312,13 @@ struct SprayCase
 struct DryingCase
 {
     std::string deposit = "combined";  //!< "cap", "boundary-layer" or "combined"
-    double critical_moisture = 0;      //!< X_cr, kg/kg solids: falling rate below; 0: none
+    std::string stages = "falling-rate";
+    double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none
+    double falling_exponent = 1;
+    std::array<double, 3> rea{0.998, 1.405, 0.930};  //!< a, b, c of the reaction engineering approach
+    double equilibrium_moisture = 0;                 //!< X_eq, kg/kg solids, that stays
+    double film_coverage = 0.9;                      //!< above it deposits dry as one film
+    bool merge = true;                               //!< droplets that fall on a wet deposit join it
     double end_moisture = 0.01;        //!< fraction of the feed's moisture at which a deposit counts as dry
 };
 

@@ -1,6 +1,7 @@
 // Reads [spray] with its nozzles, and the process: [drying], [product], [start], [time], [output].
 #include "granum/law/atomising/droplets.hpp"
 #include "granum/law/atomising/orifice.hpp"
+#include "granum/law/deposit/stages.hpp"
 #include "granum/law/droplet/size.hpp"
 #include "granum/material/moist_air.hpp"
 #include "granum/sim/case_sections.hpp"
@@ -198,9 +199,31 @@ void read_process(io::CaseFile& file, Case& data)
 {
     data.drying.deposit =
         file.name("drying.deposit", data.drying.deposit, "law", laws_for("drying.deposit"), "a law of deposit drying");
-    data.drying.critical_moisture =
+    DryingCase& drying = data.drying;
+    drying.stages = file.name("drying.stages", drying.stages, "law", laws_for("drying.stages"), "a law of drying stages");
+    bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
+    drying.critical_moisture =
         file.quantity("drying.critical_moisture", Dimension::one, 0.0,
                       "kg water per kg solids below which drying slows; 0: none", io::not_negative);
+    drying.falling_exponent = file.quantity("drying.falling_exponent", Dimension::one, drying.falling_exponent,
+                                            "of the falling rate", io::positive);
+    std::array<char const*, 3> const numbers{"drying.rea_a", "drying.rea_b", "drying.rea_c"};
+    for (std::size_t k = 0; k < 3; ++k)
+        drying.rea[k] = file.quantity(numbers[k], Dimension::one, drying.rea[k],
+                                      "of a exp(-b (X - X_eq)^c); the default is that of skim milk (recalled)",
+                                      io::positive);
+    for (auto const* key : {"drying.critical_moisture", "drying.falling_exponent"})
+        if (rea && file.has(key)) file.mistake(key, "has no meaning for drying.stages = \"reaction-engineering\"");
+    for (auto const* key : numbers)
+        if (!rea && file.has(key)) file.mistake(key, "has no meaning for drying.stages = \"falling-rate\"");
+    drying.equilibrium_moisture =
+        file.quantity("drying.equilibrium_moisture", Dimension::one, drying.equilibrium_moisture,
+                      "kg water per kg solids that stay in the layer", io::not_negative);
+    drying.film_coverage = file.quantity("drying.film_coverage", Dimension::one, drying.film_coverage,
+                                         "wet share of a granule above which its deposits dry as one film",
+                                         {.low = 0, .high = 1, .low_allowed = false});
+    drying.merge =
+        file.boolean("drying.merge", drying.merge, "a droplet that falls on a wet deposit joins it");
     data.drying.end_moisture = file.quantity("drying.end_moisture", Dimension::one, data.drying.end_moisture,
                                              "share of the feed's moisture at which a deposit counts as dry",
                                              {.low = 0, .high = 1, .low_allowed = false});

@@ -5,6 +5,7 @@
 #include "granum/law/conduction/all.hpp"
 #include "granum/law/contact/all.hpp"
 #include "granum/law/deposit/all.hpp"
+#include "granum/law/deposit/stages.hpp"
 #include "granum/law/dispersion/all.hpp"
 #include "granum/law/drag/all.hpp"
 #include "granum/law/film/all.hpp"
@@ -58,6 +59,7 @@ std::vector<LawFamily> const& law_families()
                                          "Sauter diameter of the spray of a nozzle"),
         family<law::capture::All>("capture", "spray.capture", "capture of droplets by granules"),
         family<law::deposit::All>("deposit-drying", "drying.deposit", "drying of the deposit of a droplet"),
+        family<law::deposit::Stages>("deposit-stages", "drying.stages", "what slows a deposit as it dries"),
         family<product::All>("porosity", "product.porosity_model",
                              "porosity of the layer from the history of its deposits"),
     };

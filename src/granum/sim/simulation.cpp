@@ -338,7 +338,8 @@ std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit)
                                   .contact_angle = liquid.contact_angle,
                                   .sine = sine,
                                   .splashed = splashed ? share : 0,
-                                  .crust = droplet.crust > 0};
+                                  .crust = droplet.crust > 0,
+                                  .draw = case_.drying.merge ? random.uniform() : 1};
     drying::Local const local{.gas_temperature = seen_.temperature[row],
                               .gas_humidity = air::loading(seen_.vapour_fraction[row]),
                               .pressure = case_.gas.pressure,

@@ -147,10 +147,11 @@ void Simulation::start_deposits()
     deposit.base_radius =
         law::wetting::footprint_radius(median, spray.contact_angle, impact.weber(), impact.reynolds());
     double const saturation = air::saturation_pressure(temperature) / pressure;
-    double const dry = case_.drying.end_moisture * deposit.water_at_impact;
+    double const dry = drying_->dry_water(deposit.solute);
+    double const humidity = air::relative_humidity(temperature, balance_.outlet_humidity, pressure);
     DryingCurve curve;
     while (deposit.water > dry && curve.time.size() < 100000) {
-        auto const limit = drying_->limits(deposit, film, saturation, sherwood, batch.diameter);
+        auto const limit = drying_->limits(deposit, film, saturation, sherwood, batch.diameter, humidity, 1);
         double const rate = std::visit([&](auto const& law) { return law(limit.cap, sum, limit.layer, full); },
                                        drying_->settings().combine);
         base::require(rate > 0, "deposits cannot dry at the balance's outlet state ({:.2f} K, {:.5f} kg/kg)",

@@ -151,7 +151,7 @@ TEST(Drying, slows_below_the_critical_moisture_along_an_exponential)
     Bed bed(1);
     bed.settings.combine = law::deposit::BoundaryLayer{};
     bed.settings.liquid = {.density = 1100, .feed_moisture = 2};
-    bed.settings.critical_moisture = 1;
+    bed.settings.stages = law::deposit::FallingRate{.critical = 1};
     double const solute = 1e-12;
     bed.wet(0, 1, 2 * solute, solute, 1e-4);
     auto const moisture = [&] { return bed.granules.water[0] / solute; };
@@ -166,6 +166,125 @@ TEST(Drying, slows_below_the_critical_moisture_along_an_exponential)
     }
     while (bed.events.empty()) bed.advance(dt);
     EXPECT_NEAR(bed.events[0].drying_time, half * (1 + std::log(1 / 0.02)), 2e-3 * bed.events[0].drying_time);
+}
+
+TEST(Drying, of_a_granule_that_is_covered_is_that_of_one_film)
+{
+    // Two deposits of different width that together cover 0.95 of the granule, of pure suspension: what leaves is what leaves a
+    // granule that is wet all over, and each gives by its area.
+    Bed bed(1);
+    bed.settings.combine = law::deposit::Cap{};
+    bed.settings.liquid = {.density = 1100, .feed_moisture = 2};
+    double const d = 0.6e-3, narrow = 1e-5, wide = 3e-5, solute = 1e-12;
+    double const number = 0.95 * d * d / (narrow * narrow + wide * wide);
+    bed.wet(0, number, 2 * solute, solute, narrow);
+    bed.wet(0, number, 18 * solute, 9 * solute, wide);
+    double const dt = 1e-6;
+    bed.advance(dt);
+    // Flux of the boundary layer at Sh 5.731 without slowing: 3.760 g/m2/s (physics.md 5.2, 1.5 m/s).
+    EXPECT_NEAR(bed.evaporated[0] / dt, 3.760e-3 * math::pi * d * d, 2e-3 * 3.760e-3 * math::pi * d * d);
+    auto const& open = bed.deposits.on(0);
+    double const from_narrow = number * 2 * solute - open[0].water, from_wide = number * 18 * solute - open[1].water;
+    EXPECT_NEAR(from_wide / from_narrow, 9, 1e-6);
+    // Covered a little less they dry as isolated caps, several times as fast.
+    bed.settings.film_coverage = 0.99;
+    bed.advance(dt);
+    EXPECT_GT(bed.evaporated[0] / dt, 3 * 3.760e-3 * math::pi * d * d);
+}
+
+TEST(Drying, by_reaction_engineering_ends_in_equilibrium_with_the_gas)
+{
+    Bed bed(1);
+    bed.settings.combine = law::deposit::BoundaryLayer{};
+    bed.settings.liquid = {.density = 1100, .feed_moisture = 2};
+    bed.settings.stages = law::deposit::ReactionEngineering{.a = 1, .b = 2, .c = 1};
+    bed.settings.end_moisture = 0;
+    double const solute = 1e-12, celsius = 60;
+    bed.granules.temperature[0] = celsius + zero_celsius;  // as warm as the gas: only its humidity keeps water
+    bed.wet(0, 1, 2 * solute, solute, 1e-4);
+    double const humidity = material::relative_humidity(celsius + zero_celsius, 0.012, 101325);
+    // Rates from the activity rh^f, f = exp(-2 X), all through the same film.
+    auto const moisture = [&] { return bed.granules.water[0] / solute; };
+    auto const drive = [&](double x) {
+        auto film = law::deposit::film(celsius + zero_celsius, 1.0, celsius + zero_celsius, material::fraction(0.012), 101325);
+        double const activity = std::pow(humidity, std::exp(-2 * x));
+        film.surface_fraction = law::vapour::mass_fraction(
+            activity * material::saturation_pressure(celsius + zero_celsius) / 101325);
+        return film.driving();
+    };
+    bed.advance(1e-6);
+    double const first = bed.evaporated[0], at_first = drive(2);
+    while (moisture() > 0.5) bed.advance(1e-4);
+    double const x = moisture();
+    bed.advance(1e-6);
+    EXPECT_NEAR(bed.evaporated[0] / first, drive(x) / at_first, 2e-3);
+    bed.settings.equilibrium_moisture = 0.3;
+    while (bed.events.empty() && bed.now < 100) bed.advance(1e-3);
+    EXPECT_TRUE(bed.events.empty());  // there is no end: the rate falls with what is left above equilibrium
+    EXPECT_GT(moisture(), 0.3);
+    EXPECT_LT(moisture(), 0.31);
+}
+
+TEST(Drying, leaves_the_moisture_of_equilibrium_in_the_layer)
+{
+    Bed bed(1);
+    bed.settings.liquid = {.density = 1100, .feed_moisture = 2};
+    bed.settings.equilibrium_moisture = 0.05;
+    double const solute = 1e-12;
+    bed.wet(0, 3, 2 * solute, solute, 4e-5);
+    while (bed.events.empty()) bed.advance(1e-3);
+    EXPECT_NEAR(bed.granules.water[0], 3 * 0.05 * solute, 1e-9 * solute);
+    EXPECT_EQ(bed.granules.solute[0], 0);
+    EXPECT_NEAR(bed.granules.layer_mass[0], 3 * solute, 1e-12 * solute);
+}
+
+TEST(Impact, on_a_wet_deposit_joins_it)
+{
+    // 100 caps; 60 droplets fall on them: 40 stay as they were, 60 hold both, and nothing is lost.
+    Bed bed(1);
+    double const solute = 1e-12, base = 4e-5;
+    bed.wet(0, 100, solute, solute, base);
+    double const mass = bed.granules.water[0] + bed.granules.solute[0];
+    Arrival arrival{.weight = 60,
+                    .water = 2 * solute,
+                    .solute = solute,
+                    .diameter = 20e-6,
+                    .temperature = 300,
+                    .density = 1100,
+                    .viscosity = 2e-3,
+                    .surface_tension = 0.06,
+                    .contact_angle = 0.7};
+    arrival.velocity = bed.granules.velocity[0];
+    double const coverage = Drying::coverage(bed.deposits.on(0), 1, bed.granules.diameter[0]);
+    arrival.draw = 0.999 * coverage;
+    deposit(bed.granules, 0, bed.deposits, arrival, {}, 1.0);
+    auto const& open = bed.deposits.on(0);
+    ASSERT_EQ(open.size(), 2u);
+    EXPECT_NEAR(open[0].weight, 40, 1e-12);
+    EXPECT_NEAR(open[0].water, 40 * solute, 1e-24);
+    EXPECT_EQ(open[0].record.merged, 0);
+    EXPECT_NEAR(open[1].weight, 60, 1e-12);
+    EXPECT_NEAR(open[1].water, 60 * 3 * solute, 1e-24);
+    EXPECT_NEAR(open[1].solute, 60 * 2 * solute, 1e-24);
+    EXPECT_EQ(open[1].record.merged, 1);
+    EXPECT_EQ(open[1].record.t_deposit, 1.0);
+    EXPECT_GE(open[1].base_radius, base);
+    EXPECT_NEAR(bed.granules.water[0] + bed.granules.solute[0], mass + 60 * 3 * solute, 1e-20);
+    // 150 more on the 60: each of these takes one, and 90 find no place of their own but the granule.
+    arrival.weight = 150;
+    arrival.draw = 0.5 * Drying::coverage(bed.deposits.on(0), 1, bed.granules.diameter[0]);
+    deposit(bed.granules, 0, bed.deposits, arrival, {}, 2.0);
+    double number = 0, water = 0, joined = 0;
+    for (auto const& one : open) number += one.weight, water += one.water, joined += one.weight * one.record.merged;
+    EXPECT_NEAR(water, (100 + 60 * 2 + 150 * 2) * solute, 1e-22);
+    EXPECT_NEAR(number, 40 + 60 + 90, 1e-9);  // half of the wet area on is under the 60
+    EXPECT_NEAR(joined, 60 * 2, 1e-9);
+    // Beyond the coverage they fall on dry ground.
+    auto const before = open.size();
+    arrival.draw = 0.999;
+    deposit(bed.granules, 0, bed.deposits, arrival, {}, 3.0);
+    EXPECT_EQ(open.size(), before + 1);
+    EXPECT_EQ(open.back().record.merged, 0);
 }
 
 TEST(Drying, ends_within_a_step_when_the_water_is_gone_whatever_the_step)
