@@ -2,6 +2,7 @@
 // (seed, purpose, id, step), so it depends neither on order, nor on ranks, nor on a restart.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -33,7 +34,8 @@ enum class Purpose : std::uint32_t
     deposit,
     test,
     agitation,
-    dispersion
+    dispersion,
+    surface
 };
 
 //! A stream of numbers for one (seed, purpose, id, step).
@@ -66,7 +68,19 @@ class Random
         return radius * std::cos(2 * 3.14159265358979323846 * uniform());
     }
 
+    //! Poisson's distribution: products of uniform numbers, in pieces that exp(-mean) does not make too small.
+    long poisson(double mean)
+    {
+        long number = 0;
+        for (; mean > 0; mean -= most) {
+            double const least = std::exp(-std::min(mean, most));
+            for (double product = uniform(); product > least; product *= uniform()) ++number;
+        }
+        return number;
+    }
+
   private:
+    static constexpr double most = 32;
     std::array<std::uint32_t, 4> counter_, block_{};
     std::array<std::uint32_t, 2> key_;
     int left_ = 0;

@@ -112,6 +112,9 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             event.granule = static_cast<double>(granules.id[row]);
             event.t_dry_end = now - dt + h;
             event.solids = deposit.solute;
+            event.footprint = deposit.base_radius;
+            event.granule_diameter = diameter;
+            event.per_granule = deposit.weight / count;
             event.weight = deposit.weight;
             event.drying_time = deposit.time;
             event.mean_gas_temperature = deposit.gas_temperature / time;

@@ -23,6 +23,7 @@ struct Event
     double coverage, solids_fraction, slip, merged;
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
+    double footprint, granule_diameter, per_granule;
 };
 
 inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_columns{{
@@ -68,5 +69,8 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"constant_rate_time", "s", "time until the solution was saturated (solutions)"},
     {"initial", "1", "1: placed by the quasi-steady start, not sprayed"},
     {"porosity", "1", "of the layer element by the chosen model"},
+    {"footprint", "m", "radius of the base of one deposit"},
+    {"granule_diameter", "m", "of a real granule when the deposit was dry"},
+    {"per_granule", "1", "deposits per real granule of the parcel"},
 }};
 }

@@ -361,6 +361,7 @@ struct BoxCase
 //! What [output] asks for besides its intervals.
 struct OutputCase
 {
+    long surfaces = 200;               //!< real granules whose surfaces are laid cap by cap
     double overlap_criterion = 0.003;  //!< share of a radius: contacts beyond it are counted [R]
     std::vector<BoxCase> boxes;
 };

@@ -34,6 +34,8 @@ void read_output(io::CaseFile& file, Case& data)
     output.overlap_criterion =
         file.quantity("output.overlap_criterion", Dimension::one, output.overlap_criterion,
                       "overlaps above this share of a radius are counted", {.low = 0, .high = 1, .low_allowed = false});
+    output.surfaces = file.integer("output.surfaces", output.surfaces,
+                                   "real granules whose surfaces are laid cap by cap; 0: none", 0, 100000);
     std::set<std::string> names;
     int const count = file.count("output.box");
     for (int i = 0; i < count; ++i) {

@@ -196,6 +196,8 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
       droplets_(folder_ + "/droplets.pvd"),
       gas_(folder_ + "/gas.pvd"),
       layers_(simulation.data().spray.present ? static_cast<std::size_t>(simulation.data().granules.first_free) : 0),
+      surfaces_(simulation.data().seed, simulation.data().spray.present ? simulation.data().granules.first_free : 0,
+                root_ ? simulation.data().output.surfaces : 0),
       model_(porosity_model(simulation.data()))
 {
     if (!root_) return;
@@ -318,6 +320,7 @@ void Output::count(drying::Event const& event)
 {
     if (event.initial > 0) return;
     ++event_count_;
+    surfaces_.take(event, simulation_.data().spray.solids_density);
     auto const prediction = std::visit(
         [&](auto const& law) {
             return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});

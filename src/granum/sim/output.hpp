@@ -11,6 +11,7 @@
 #include "granum/sim/bed_statistics.hpp"
 #include "granum/sim/box_output.hpp"
 #include "granum/sim/simulation.hpp"
+#include "granum/sim/surface_sample.hpp"
 #include "granum/sim/wall_output.hpp"
 
 #include <memory>
@@ -48,6 +49,7 @@ class Output
 
     std::vector<Sample> const& samples() const { return samples_; }
     std::vector<product::LayerSum> const& layers() const { return layers_; }  //!< by granule, sprayed events only
+    SurfaceSample const& surfaces() const { return surfaces_; }
     long event_count() const { return event_count_; }
     //! @{ Mechanical energy now, lost and gone out less that at the start, brought in and done by moving walls, J; and
     //! the largest sum of motion and loss met, J. The gas does work that is not in it.
@@ -73,6 +75,7 @@ class Output
     io::Collection granules_, droplets_, gas_;
     std::vector<Sample> samples_;
     std::vector<product::LayerSum> layers_;
+    SurfaceSample surfaces_;
     product::Any model_;
     io::GranuleView view_;
     double energy_residual_ = 0, energy_passed_ = 0;

@@ -1,7 +1,7 @@
 // What the files of a run held at a checkpoint, and how they go on from there.
 #include "granum/sim/output.hpp"
 
-#include <limits>
+#include <cstring>
 
 namespace granum::sim
 {
@@ -48,7 +48,12 @@ void Output::go_on(io::Sections const& saved)
     boxes_.go_on(saved);
     if (event_log_) {
         event_log_->go_on(io::values_of<io::RowLog::Mark>(find("output.events")).at(0),
-                          [&](std::span<double const> row) { events_->append(row); });
+                          [&](std::span<double const> row) {
+                              events_->append(row);
+                              drying::Event event;
+                              std::memcpy(&event, row.data(), sizeof event);
+                              surfaces_.take(event, simulation_.data().spray.solids_density);
+                          });
         events_->flush();
     }
 }

@@ -72,6 +72,13 @@ json product_part(Simulation const& simulation, Output const& output)
         out["porosity"] = nullptr;
         return out;
     }
+    if (auto const surface = output.surfaces().statistics(); surface.granules > 0)
+        out["surface"] = {{"granules", surface.granules},
+                          {"coverage", surface.coverage},
+                          {"uncovered", 1 - surface.coverage},
+                          {"thickness_m", surface.mean_thickness},
+                          {"variation_within", surface.variation_within},
+                          {"variation_between", surface.variation_between}};
     auto const batch = product::batch_property(output.layers());
     out["porosity"] = {{"mean", batch.mean.mean},
                        {"p10", batch.granules.p10},
