@@ -67,7 +67,7 @@ def keys_read(root):
             keys |= {f"spray.{name}" for name in re.findall(r'\bproperty\("([a-z_]+)"', text)}
         table = re.findall(r'fmt::format\("(granule|nozzle)\[\{\}\]\."', text)
         if table:
-            keys |= {f"{table[0]}.{name}" for name in re.findall(r'\bkey \+ "([a-z_]+)"', text)}
+            keys |= {f"{table[0]}.{name}" for name in re.findall(r'(?<!derived\()\bkey \+ "([a-z_]+)"', text)}
     return keys
 
 

@@ -38,7 +38,8 @@ Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, d
     double const area = law::wetting::cap_area(deposit.base_radius, angle);
     return {.cap = drive.factor * law::deposit::cap_rate(deposit.base_radius, angle, film),
             .layer = drive.factor * law::deposit::boundary_layer_rate(sherwood, diameter, area, film),
-            .film = drive.factor * law::deposit::boundary_layer_rate(sherwood, diameter, math::pi * diameter * diameter, film)};
+            .film = drive.factor *
+                    law::deposit::boundary_layer_rate(sherwood, diameter, math::pi * diameter * diameter, film)};
 }
 
 void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
@@ -58,8 +59,8 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
 
         limit.clear();
         double sum = 0, area = 0;
-        double const humidity = air::relative_humidity(
-            seen.temperature[row], air::loading(seen.vapour_fraction[row]), settings_.pressure);
+        double const humidity =
+            air::relative_humidity(seen.temperature[row], air::loading(seen.vapour_fraction[row]), settings_.pressure);
         for (auto const& deposit : open) {
             limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter, humidity,
                                    seen.temperature[row] / temperature));

@@ -1,9 +1,10 @@
 // Drying of the deposits on each granule, their solids joining the layer, and the events that say how it went.
 //
 // Every cap on a granule has the granule's temperature. Its evaporation lies between that of an isolated cap and its
-// share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2); where they cover nearly all of the
-// granule they dry as one film. A deposit is dry when its moisture has fallen to `end_moisture` of the feed's above that of
-// equilibrium; the trace left above equilibrium then evaporates in the same step, the rest stays in the layer.
+// share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2); where they cover nearly all
+// of the granule they dry as one film. A deposit is dry when its moisture has fallen to `end_moisture` of the feed's
+// above that of equilibrium; the trace left above equilibrium then evaporates in the same step, the rest stays in the
+// layer.
 #pragma once
 
 #include "granum/drying/deposits.hpp"
@@ -36,7 +37,7 @@ struct Settings
     double equilibrium_moisture = 0;  //!< kg/kg that stays in the layer
     double end_moisture = 0.01;       //!< of the feed's moisture, above that of equilibrium
     double film_coverage = 0.9;       //!< above it the deposits of a granule dry as one film
-    double pressure = 101325;      //!< Pa
+    double pressure = 101325;         //!< Pa
     //! Layer porosity of an element that met (mean local drying potential, drying time, moisture at impact).
     std::function<double(double, double, double)> porosity;
 };
@@ -60,8 +61,9 @@ class Drying
     //! Wet fraction of the surface of a real granule under these deposits, at most 1.
     static double coverage(std::vector<Deposit> const& deposits, double count, double diameter);
 
-    //! The limits of one cap's evaporation, kg/s: alone on its granule, through the granule's boundary layer over its own
-    //! surface, and over the whole granule. Flattened by what it has lost, with its own water activity and falling rate.
+    //! The limits of one cap's evaporation, kg/s: alone on its granule, through the granule's boundary layer over its
+    //! own surface, and over the whole granule. Flattened by what it has lost, with its own water activity and falling
+    //! rate.
     struct Limits
     {
         double cap, layer;

@@ -18,7 +18,7 @@ struct Event
 {
     double granule, t_deposit, t_dry_end, x, y, z, solids, weight;
     double droplet_diameter, moisture_at_impact, droplet_temperature, age, path, normal_speed, tangential_speed;
-    double weber, reynolds, ohnesorge, mundo, splashed, crust;
+    double weber, reynolds, ohnesorge, mundo, splashed, dry;
     double gas_temperature, gas_humidity, relative_humidity, drying_potential, granule_temperature, granule_moisture;
     double coverage, solids_fraction, slip, merged;
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
@@ -47,7 +47,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"ohnesorge", "1", "of the droplet"},
     {"mundo", "1", "Oh Re^1.25; splashing above about 57.7"},
     {"splashed", "1", "share of the droplet's mass that splashed off"},
-    {"crust", "1", "1: the solids of the droplet had locked before the impact"},
+    {"dry", "1", "1: the droplet was dry or had a crust, and did not spread"},
     {"gas_temperature", "K", "seen by the granule at impact"},
     {"gas_humidity", "kg/kg", "loading seen by the granule at impact"},
     {"relative_humidity", "1", "seen by the granule at impact"},
@@ -57,7 +57,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"coverage", "1", "wet fraction of the granule's surface at impact"},
     {"solids_fraction", "1", "of the bed around the granule at impact"},
     {"slip", "m/s", "superficial gas speed relative to the granule at impact"},
-    {"merged", "1", "droplets that lay wet on the spot and were joined by this one"},
+    {"merged", "1", "droplets that have joined what lay wet on the spot"},
     {"drying_time", "s", "from the last impact to dry"},
     {"mean_gas_temperature", "K", "mean over the drying time"},
     {"mean_gas_humidity", "kg/kg", "mean loading over the drying time"},
@@ -67,7 +67,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"mean_flux", "kg/m2/s", "evaporated water, less the trace at the end, per footprint and drying time"},
     {"max_flux", "kg/m2/s", "largest evaporation per footprint"},
     {"constant_rate_time", "s", "time until the solution was saturated (solutions)"},
-    {"initial", "1", "1: placed by the quasi-steady start, not sprayed"},
+    {"initial", "1", "share of the solids that the quasi-steady start had placed, not sprayed"},
     {"porosity", "1", "of the layer element by the chosen model"},
     {"footprint", "m", "radius of the base of one deposit"},
     {"granule_diameter", "m", "of a real granule when the deposit was dry"},

@@ -20,7 +20,8 @@ Deposit part_of(Deposit whole, double share)
     return whole;
 }
 
-//! Droplets of `fresh` fall each on one cap of a deposit, drawn by area; what is left over of either stays alone.
+//! Droplets of `fresh` fall on the caps of a deposit, drawn by area: several on each, or one on each of a part of them,
+//! whose others stay as they are.
 void join(std::vector<Deposit>& open, Deposit const& fresh, double draw, Arrival const& droplet)
 {
     double area = 0;
@@ -28,22 +29,23 @@ void join(std::vector<Deposit>& open, Deposit const& fresh, double draw, Arrival
     std::size_t k = 0;
     for (double left = draw * area; k + 1 < open.size(); ++k)
         if ((left -= open[k].weight * open[k].base_radius * open[k].base_radius) < 0) break;
-    double const pairs = std::min(fresh.weight, open[k].weight);
-    Deposit const below = part_of(open[k], pairs / open[k].weight);
-    Deposit both = part_of(fresh, pairs / fresh.weight);
+    double const caps = std::min(fresh.weight, open[k].weight);
+    Deposit const below = part_of(open[k], caps / open[k].weight);
+    Deposit both = fresh;
+    both.weight = caps;
     both.water += below.water, both.solute += below.solute, both.water_at_impact += below.water;
     // The wider of both contact lines, or that of a cap at rest of both.
-    double const volume = (both.water + both.solute) / pairs / droplet.density;
-    both.base_radius = std::max({below.base_radius, fresh.base_radius,
-                                 law::wetting::cap_base_radius(std::cbrt(6 / math::pi * volume), droplet.contact_angle)});
-    both.record.merged = below.record.merged + 1;
-    both.record.initial = std::max(both.record.initial, below.record.initial);
-    double const rest = open[k].weight - pairs, over = fresh.weight - pairs;
+    double const volume = (both.water + both.solute) / caps / droplet.density;
+    both.base_radius =
+        std::max({below.base_radius, fresh.base_radius,
+                  law::wetting::cap_base_radius(std::cbrt(6 / math::pi * volume), droplet.contact_angle)});
+    both.record.merged = below.record.merged + fresh.weight / caps;
+    both.record.initial = below.record.initial * below.solute / both.solute;
+    double const rest = open[k].weight - caps;
     if (rest > 1e-12 * open[k].weight)
         open[k] = part_of(open[k], rest / open[k].weight), open.push_back(both);
     else
         open[k] = both;
-    if (over > 1e-12 * fresh.weight) open.push_back(part_of(fresh, over / fresh.weight));
 }
 }
 
@@ -58,9 +60,10 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     fresh.weight = droplet.weight;
     fresh.water = fresh.water_at_impact = droplet.weight * droplet.water;
     fresh.solute = droplet.weight * droplet.solute;
-    fresh.base_radius = droplet.crust ? 0.5 * droplet.diameter
-                                      : law::wetting::footprint_radius(droplet.diameter, droplet.contact_angle,
-                                                                       impact.weber(), impact.reynolds());
+    double const left = droplet.diameter * std::cbrt(1 - droplet.splashed);
+    fresh.base_radius =
+        droplet.dry ? 0.5 * droplet.diameter
+                    : law::wetting::footprint_radius(left, droplet.contact_angle, impact.weber(), impact.reynolds());
 
     double const dry = granules.core_mass[row] + granules.layer_mass[row] + granules.solute[row];
     Event& record = fresh.record;
@@ -78,7 +81,7 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     record.ohnesorge = impact.ohnesorge();
     record.mundo = impact.mundo();
     record.splashed = droplet.splashed;
-    record.crust = droplet.crust;
+    record.dry = droplet.dry;
     record.gas_temperature = local.gas_temperature;
     record.gas_humidity = local.gas_humidity;
     record.relative_humidity = material::relative_humidity(local.gas_temperature, local.gas_humidity, local.pressure);

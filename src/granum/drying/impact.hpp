@@ -12,7 +12,7 @@ struct Arrival
 {
     double weight = 0;                                                          //!< real droplets in the parcel
     double water = 0, solute = 0;                                               //!< kg of one droplet
-    double diameter = 0;                                                        //!< m
+    double diameter = 0;                                                        //!< m, before any splashing
     double temperature = 0;                                                     //!< K
     double enthalpy = 0;                                                        //!< J of the whole parcel
     double age = 0, path = 0;                                                   //!< s, m
@@ -20,7 +20,7 @@ struct Arrival
     double density = 0, viscosity = 0, surface_tension = 0, contact_angle = 0;  //!< of the liquid, SI
     double sine = 0;      //!< of the angle between path and surface normal at the impact point
     double splashed = 0;  //!< share of the mass that has splashed off
-    bool crust = false;   //!< solids had locked
+    bool dry = false;     //!< or with a crust: it does not spread
     double draw = 1;      //!< from 0 to 1: below the granule's coverage the droplet falls on a wet deposit and joins it
 };
 

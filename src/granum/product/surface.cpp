@@ -84,12 +84,16 @@ SurfaceStatistics statistics(std::vector<Surface> const& sample)
     SurfaceStatistics out{.granules = sample.size()};
     if (sample.empty()) return out;
     auto const count = static_cast<double>(sample.size());
+    double coated = 0;
     std::vector<double> means;
     for (auto const& surface : sample) {
-        out.coverage += surface.coverage() / count;
-        out.variation_within += surface.variation() / count;
         means.push_back(surface.mean_thickness());
+        out.coverage += surface.coverage() / count;
+        if (means.back() == 0) continue;
+        ++coated;
+        out.variation_within += surface.variation();
     }
+    if (coated > 0) out.variation_within /= coated;
     auto const between = spread(means, count - 1);
     out.mean_thickness = between.mean, out.variation_between = between.variation;
     return out;

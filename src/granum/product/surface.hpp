@@ -1,9 +1,9 @@
 // The surface of single granules, cap by cap: where deposits lie over each other and where none has fallen yet.
 //
 // A granule of the simulation stands for many and knows only how much has been deposited on all of them. Here each of a
-// sample of real granules has its sphere of panels, every dried deposit falls on it as often as chance (Poisson) has it, at
-// places spread evenly over the sphere, and adds its height to the panels whose middles lie under it.
-// Sources: physics.md 5.5; Jiang et al., Chem. Eng. Sci. (2020) for the idea of panels.
+// sample of real granules has its sphere of panels, every dried deposit falls on it as often as chance (Poisson) has
+// it, at places spread evenly over the sphere, and adds its height to the panels whose middles lie under it. Sources:
+// physics.md 5.5; Jiang et al., Chem. Eng. Sci. (2020) for the idea of panels.
 #pragma once
 
 #include "granum/base/random.hpp"
@@ -38,10 +38,10 @@ class Surface
 //! What a droplet parcel left, seen from one real granule.
 struct Fall
 {
-    double per_granule;   //!< mean number of deposits on each real granule of the parcel
-    double radius;        //!< of the granule, m
-    double base_radius;   //!< of a deposit, m
-    double volume;        //!< of a deposit when dry, pores included, m3
+    double per_granule;  //!< mean number of deposits on each real granule of the parcel
+    double radius;       //!< of the granule, m
+    double base_radius;  //!< of a deposit, m
+    double volume;       //!< of a deposit when dry, pores included, m3
 };
 
 //! Deposits that chance lets fall on one granule.
@@ -49,10 +49,10 @@ void fall(Surface& surface, Fall const& what, base::Random& random);
 
 struct SurfaceStatistics
 {
-    double coverage = 0;                //!< mean share of the surface under deposits
-    double mean_thickness = 0;          //!< m
-    double variation_within = 0;        //!< of the thickness over a granule, mean over granules
-    double variation_between = 0;       //!< of the mean thickness among granules
+    double coverage = 0;           //!< mean share of the surface under deposits
+    double mean_thickness = 0;     //!< m
+    double variation_within = 0;   //!< of the thickness over a granule, mean over those that have a layer
+    double variation_between = 0;  //!< of the mean thickness among granules
     std::size_t granules = 0;
 };
 SurfaceStatistics statistics(std::vector<Surface> const& sample);

@@ -64,7 +64,7 @@ std::vector<std::size_t> RunFolder::event_rows() const
     auto const* initial = events.find("initial");
     for (std::size_t row = 0; row < events.rows(); ++row) {
         all.push_back(row);
-        if (!initial || (*initial)[row] == 0) sprayed.push_back(row);
+        if (!initial || (*initial)[row] < 1) sprayed.push_back(row);
     }
     return sprayed.empty() ? all : sprayed;
 }

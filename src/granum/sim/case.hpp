@@ -319,7 +319,7 @@ struct DryingCase
     double equilibrium_moisture = 0;                 //!< X_eq, kg/kg solids, that stays
     double film_coverage = 0.9;                      //!< above it deposits dry as one film
     bool merge = true;                               //!< droplets that fall on a wet deposit join it
-    double end_moisture = 0.01;        //!< fraction of the feed's moisture at which a deposit counts as dry
+    double end_moisture = 0.01;  //!< fraction of the feed's moisture at which a deposit counts as dry
 };
 
 //! [product]

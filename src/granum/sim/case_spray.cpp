@@ -50,10 +50,13 @@ void atomise(io::CaseFile& file, std::string const& key, double ambient, SprayCa
         if (!there) file.mistake(key + name, fmt::format("is what {} needs of a nozzle: {}", spray.atomisation, what));
         return there;
     };
+    if (file.wrong(key + "air_pressure") || file.wrong(key + "air_mouth")) return;
     bool good = needs("bore", nozzle.bore > 0, "the diameter of the liquid's mouth");
     good = needs("air", nozzle.air_mass_flow > 0, "atomising air") && good;
     if (spray.atomisation == law::atomising::Walzel::card.name)
         good = needs("air_pressure", nozzle.air_pressure > 0, "the pressure of the atomising air") && good;
+    else if (std::abs(nozzle.air_velocity - nozzle.droplet_velocity) < 1)
+        file.mistake(key + "droplet_velocity", "is that of the air: nothing tears the liquid", {}), good = false;
     if (!good) return;
     law::atomising::Atomisation const at{
         .liquid_flow = rate,
@@ -162,6 +165,13 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
                                  "share by which this varies (recalled)", io::zero_to_one);
     splash.droplets = file.quantity("spray.splash_droplets", Dimension::one, splash.droplets,
                                     "number of droplets that fly on from one that splashes (recalled)", {.low = 1});
+    if (splash.least + splash.range >= 1)
+        file.mistake("spray.splash_range", "leaves nothing of a droplet on the granule",
+                     {"splash_least and splash_range together are below 1"});
+    double const feed_volume = spray.solids_fraction * spray.density / spray.solids_density;
+    if (spray.locking > 0 && spray.locking <= feed_volume)
+        file.mistake("spray.locking",
+                     fmt::format("is not above the share that solids have in the feed, {:.3g}", feed_volume));
     spray.droplet_median = file.quantity("spray.droplet_median", Dimension::length, spray.droplet_median,
                                          "diameter, of the volume distribution", io::positive);
     spray.droplet_spread = file.quantity("spray.droplet_spread", Dimension::one, spray.droplet_spread,
@@ -200,7 +210,8 @@ void read_process(io::CaseFile& file, Case& data)
     data.drying.deposit =
         file.name("drying.deposit", data.drying.deposit, "law", laws_for("drying.deposit"), "a law of deposit drying");
     DryingCase& drying = data.drying;
-    drying.stages = file.name("drying.stages", drying.stages, "law", laws_for("drying.stages"), "a law of drying stages");
+    drying.stages =
+        file.name("drying.stages", drying.stages, "law", laws_for("drying.stages"), "a law of drying stages");
     bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
     drying.critical_moisture =
         file.quantity("drying.critical_moisture", Dimension::one, 0.0,
@@ -209,9 +220,9 @@ void read_process(io::CaseFile& file, Case& data)
                                             "of the falling rate", io::positive);
     std::array<char const*, 3> const numbers{"drying.rea_a", "drying.rea_b", "drying.rea_c"};
     for (std::size_t k = 0; k < 3; ++k)
-        drying.rea[k] = file.quantity(numbers[k], Dimension::one, drying.rea[k],
-                                      "of a exp(-b (X - X_eq)^c); the default is that of skim milk (recalled)",
-                                      io::positive);
+        drying.rea[k] =
+            file.quantity(numbers[k], Dimension::one, drying.rea[k],
+                          "of a exp(-b (X - X_eq)^c); the default is that of skim milk (recalled)", io::positive);
     for (auto const* key : {"drying.critical_moisture", "drying.falling_exponent"})
         if (rea && file.has(key)) file.mistake(key, "has no meaning for drying.stages = \"reaction-engineering\"");
     for (auto const* key : numbers)
@@ -219,11 +230,15 @@ void read_process(io::CaseFile& file, Case& data)
     drying.equilibrium_moisture =
         file.quantity("drying.equilibrium_moisture", Dimension::one, drying.equilibrium_moisture,
                       "kg water per kg solids that stay in the layer", io::not_negative);
+    double const feed = (1 - data.spray.solids_fraction) / data.spray.solids_fraction;
+    if (data.spray.present && drying.equilibrium_moisture >= feed)
+        file.mistake("drying.equilibrium_moisture", fmt::format("is not below the moisture of the feed, {:.4g}", feed));
+    if (drying.critical_moisture > 0 && drying.critical_moisture <= drying.equilibrium_moisture)
+        file.mistake("drying.critical_moisture", "is not above drying.equilibrium_moisture");
     drying.film_coverage = file.quantity("drying.film_coverage", Dimension::one, drying.film_coverage,
                                          "wet share of a granule above which its deposits dry as one film",
                                          {.low = 0, .high = 1, .low_allowed = false});
-    drying.merge =
-        file.boolean("drying.merge", drying.merge, "a droplet that falls on a wet deposit joins it");
+    drying.merge = file.boolean("drying.merge", drying.merge, "a droplet that falls on a wet deposit joins it");
     data.drying.end_moisture = file.quantity("drying.end_moisture", Dimension::one, data.drying.end_moisture,
                                              "share of the feed's moisture at which a deposit counts as dry",
                                              {.low = 0, .high = 1, .low_allowed = false});

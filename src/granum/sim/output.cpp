@@ -318,7 +318,7 @@ void Output::write(Sample const& s)
 
 void Output::count(drying::Event const& event)
 {
-    if (event.initial > 0) return;
+    if (event.initial >= 1) return;
     ++event_count_;
     surfaces_.take(event, simulation_.data().spray.solids_density);
     auto const prediction = std::visit(
@@ -326,7 +326,7 @@ void Output::count(drying::Event const& event)
             return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});
         },
         model_);
-    layers_[static_cast<std::size_t>(event.granule)].add(event.solids, prediction);
+    layers_[static_cast<std::size_t>(event.granule)].add(event.solids * (1 - event.initial), prediction);
 }
 
 void Output::events()

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 namespace granum::sim
 {
@@ -206,167 +207,6 @@ void Simulation::gas_step(double dt)
     if (case_.spray.present) engine_->changed(granules_);
 }
 
-void Simulation::find_nozzle_cells()
-{
-    around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank());
-    nozzle_weights_.clear();
-    for (auto const& nozzle : nozzles_) {
-        double const cell = grid::widest_at(lines_, nozzle.position);
-        grid::Field share = grid_.make_field();
-        double sum = 0;
-        grid::for_each_cell(grid_, [&](int i, int j, int k, Index c) {
-            share[c] = nozzle.source_weight(grid_.centre(i, j, k), cell) * grid_.open_volume[c] / grid_.volume(i, j, k);
-            sum += share[c];
-        });
-        sum = comm_.sum(sum);
-        base::require(sum > 0, "the air of the nozzle at ({}, {}, {}) m meets no open cell", nozzle.position.x,
-                      nozzle.position.y, nozzle.position.z);
-        for (double& s : share) s /= sum;
-        nozzle_weights_.push_back(std::move(share));
-    }
-}
-
-void Simulation::nozzle_air(double dt)
-{
-    for (std::size_t n = 0; n < nozzles_.size(); ++n) {
-        auto const& nozzle = nozzles_[n];
-        double const enthalpy =
-            nozzle.air_mass_flow * air::enthalpy(nozzle.air_temperature, nozzle.air_vapour_fraction);
-        double const vapour = nozzle.air_mass_flow * nozzle.air_vapour_fraction;
-        double share = 0;
-        grid::for_each_cell(grid_, [&](int, int, int, Index cell) {
-            double const s = nozzle_weights_[n][cell];
-            if (s == 0) return;
-            share += s;
-            sources_.mass[cell] += s * nozzle.air_mass_flow;
-            sources_.vapour[cell] += s * vapour;
-            sources_.enthalpy[cell] += s * enthalpy;
-            for (std::size_t d = 0; d < 3; ++d) sources_.force[d][cell] += s * nozzle.momentum() * nozzle.direction[d];
-        });
-        in_[1] += share * vapour * dt;
-        in_[2] += share * enthalpy * dt;
-    }
-}
-
-void Simulation::fly_droplets(double dt)
-{
-    spray::Liquid const& liquid = flight_.liquid;
-    for (auto const& nozzle : nozzles_) {
-        if (partition_->owner(nozzle.position) != comm_.rank()) continue;
-        for (auto& droplet : nozzle.emit(time_, dt, liquid, case_.seed)) {
-            mine_.solids += droplet.solids();
-            mine_.water += droplet.liquid_water();
-            in_[0] += droplet.solids();
-            in_[1] += droplet.liquid_water();
-            in_[2] += droplet.enthalpy(liquid);
-            droplets_.push_back(droplet);
-        }
-    }
-    around_->prepare(*solver_, gas_, granules_, sources_, dt, case_.spray.dispersion != "none");
-    spray::Outcome outcome;
-    spray::fly(droplets_, flight_, case_.chamber, *around_, dt, static_cast<std::uint32_t>(steps_), outcome);
-    mine_.evaporated += outcome.evaporated;
-    mine_.walls += outcome.walls.solids;
-    mine_.overspray += outcome.overspray.solids;
-    for (auto const* losses : {&outcome.walls, &outcome.overspray}) {
-        out_[0] += losses->solids;
-        out_[1] += losses->water;
-        out_[2] += losses->enthalpy;
-    }
-    for (auto const& hit : outcome.hits)
-        if (auto const rest = receive(hit)) droplets_.push_back(*rest);
-    exchange_droplets(std::move(outcome.leaving));
-}
-
-namespace
-{
-constexpr std::uint32_t most_splashes = 3;  // of a droplet, one out of the other
-constexpr double kept_speed = 0.5;          // of that at impact by what flies on from a granule
-}
-
-std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit)
-{
-    auto droplet = hit.droplet;
-    auto const& liquid = flight_.liquid;
-    std::size_t const row = hit.row;
-    base::Random random(case_.seed, base::Purpose::impact, droplet.id, static_cast<std::uint32_t>(steps_));
-    double const sine = std::sqrt(random.uniform());
-    auto const flies_on = [&](spray::Droplet& rest, double speed) {
-        double const up = 2 * random.uniform() - 1, turn = 2 * math::pi * random.uniform();
-        double const side = std::sqrt(1 - up * up);
-        Vec3 const before = rest.velocity;
-        rest.velocity = granules_.velocity[row] + speed * Vec3{side * std::cos(turn), side * std::sin(turn), up};
-        rest.delay = -hit.left;
-        granules_.velocity[row] += rest.mass() / granules_.mass[row] * (before - rest.velocity);
-        return rest;
-    };
-    // What is dry sticks where it falls on a wet spot only.
-    if (droplet.dry(liquid, case_.drying.end_moisture) &&
-        random.uniform() >=
-            drying::Drying::coverage(deposits_->on(granules_.id[row]), granules_.count[row], granules_.diameter[row])) {
-        ++mine_.rebounds;
-        return flies_on(droplet, kept_speed * hit.speed);
-    }
-    std::optional<spray::Droplet> splashed;
-    law::impact::Impact const impact{liquid.density, liquid.viscosity, liquid.surface_tension,
-                                     hit.speed * std::sqrt(1 - sine * sine), droplet.diameter(liquid)};
-    double const share = droplet.crust > 0 ? 0 : flight_.splash.share(impact.mundo(), random.uniform());
-    if (share > 0 && droplet.splashes < most_splashes) {
-        splashed = droplet;
-        splashed->id += std::uint64_t{++splashed->splashes} << 56;
-        splashed->weight *= flight_.splash.droplets;
-        for (double spray::Droplet::*amount : {&spray::Droplet::water, &spray::Droplet::solute}) {
-            splashed.value().*amount *= share / flight_.splash.droplets;
-            droplet.*amount *= 1 - share;
-        }
-        flies_on(*splashed, kept_speed * hit.speed);
-        mine_.splashed += splashed->solids();
-    }
-    drying::Arrival const arrival{.weight = droplet.weight,
-                                  .water = droplet.water,
-                                  .solute = droplet.solute,
-                                  .diameter = droplet.diameter(liquid),
-                                  .temperature = droplet.temperature,
-                                  .enthalpy = droplet.enthalpy(liquid),
-                                  .age = droplet.age,
-                                  .path = droplet.path,
-                                  .position = droplet.position,
-                                  .velocity = droplet.velocity,
-                                  .density = liquid.density,
-                                  .viscosity = liquid.viscosity,
-                                  .surface_tension = liquid.surface_tension,
-                                  .contact_angle = liquid.contact_angle,
-                                  .sine = sine,
-                                  .splashed = splashed ? share : 0,
-                                  .crust = droplet.crust > 0,
-                                  .draw = case_.drying.merge ? random.uniform() : 1};
-    drying::Local const local{.gas_temperature = seen_.temperature[row],
-                              .gas_humidity = air::loading(seen_.vapour_fraction[row]),
-                              .pressure = case_.gas.pressure,
-                              .drying_potential = potential_[row],
-                              .solids_fraction = seen_.solids_fraction[row],
-                              .slip = seen_.slip[row]};
-    drying::deposit(granules_, row, *deposits_, arrival, local, time_);
-    mine_.deposited += droplet.solids();
-    mine_.deposited_water += droplet.liquid_water();
-    ++mine_.hits;
-    return splashed;
-}
-
-void Simulation::exchange_droplets(std::vector<spray::Droplet> leaving)
-{
-    if (comm_.size() == 1) return;
-    // Everybody sees who leaves and keeps what is its own: droplets are few, and any distance may be crossed.
-    auto const bytes = std::as_bytes(std::span(leaving));
-    auto all = comm_.gather(bytes);
-    comm_.broadcast(all);
-    for (std::size_t at = 0; at + sizeof(spray::Droplet) <= all.size(); at += sizeof(spray::Droplet)) {
-        spray::Droplet droplet;
-        std::memcpy(&droplet, all.data() + at, sizeof droplet);
-        if (partition_->owner(droplet.position) == comm_.rank()) droplets_.push_back(droplet);
-    }
-}
-
 std::array<double, 3> Simulation::stocks() const
 {
     std::array<double, 3> stock{};
@@ -419,6 +259,10 @@ std::vector<drying::Event> Simulation::take_events()
     events_.clear();
     std::vector<drying::Event> all(bytes.size() / sizeof(drying::Event));
     if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+    // In the order of time, whichever rank they came from.
+    std::stable_sort(all.begin(), all.end(), [](auto const& a, auto const& b) {
+        return std::tie(a.t_dry_end, a.granule, a.t_deposit) < std::tie(b.t_dry_end, b.granule, b.t_deposit);
+    });
     return all;
 }
 }

@@ -153,7 +153,8 @@ class Simulation
     void feed_all(double now);  //!< Collective.
     void let_out();             //!< takes out, or refuses, what has left the domain. Collective.
     void fly_droplets(double dt);
-    std::optional<spray::Droplet> receive(spray::Hit const& hit);  //!< gives what does not stay on the granule
+    //! Gives what does not stay on the granule; `stream` numbers the draws.
+    std::optional<spray::Droplet> receive(spray::Hit const& hit, std::uint32_t stream);
     void exchange_droplets(std::vector<spray::Droplet> leaving);
     void nozzle_air(double dt);
     void gas_step(double dt);

@@ -21,7 +21,7 @@ SurfaceSample::SurfaceSample(std::uint32_t seed, long parcels, long granules)
 void SurfaceSample::take(drying::Event const& event, double solids_density)
 {
     auto const parcel = static_cast<std::size_t>(event.granule);
-    if (parcel >= index_.size() || index_[parcel] < 0 || event.initial > 0) return;
+    if (parcel >= index_.size() || index_[parcel] < 0 || event.initial >= 1) return;
     auto const n = static_cast<std::size_t>(index_[parcel]);
     // A stream for each event of each granule: what falls does not depend on ranks or restarts.
     base::Random random(seed_, base::Purpose::surface, parcel, events_[n]++);

@@ -123,8 +123,8 @@ Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& se
         auto rates = law::droplet::evaporation(drop, gas);
         if (droplet.water <= 0) rates.mass = 0;
         if (droplet.crust > 0 && liquid.crust_diffusivity > 0) {
-            double const core =
-                law::droplet::wet_core(droplet.water / air::water_density, diameter, 1 - liquid.locking);
+            double const solids = droplet.solute / liquid.solids_density / (math::pi / 6 * std::pow(diameter, 3));
+            double const core = law::droplet::wet_core(droplet.water / air::water_density, diameter, 1 - solids);
             rates.mass *= law::droplet::through_crust(rates.transfer, liquid.crust_diffusivity, core);
         }
         return rates;

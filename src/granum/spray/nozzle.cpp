@@ -39,7 +39,7 @@ double Nozzle::diameter(base::Random& random) const
 
 double Nozzle::largest_diameter() const
 {
-    return sizes ? sizes->largest() : law::droplet::sample_volume_weighted(median, spread, 4);
+    return sizes ? sizes->mass_diameter(1 - 3e-5) : law::droplet::sample_volume_weighted(median, spread, 4);
 }
 
 double Nozzle::jet_speed(Vec3 const& x, double density) const

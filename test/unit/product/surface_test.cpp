@@ -1,4 +1,5 @@
-// Coverage and thickness of layers that chance lays, against the closed forms of Poisson's distribution (physics.md 5.5).
+// Coverage and thickness of layers that chance lays, against the closed forms of Poisson's distribution
+// (physics.md 5.5).
 #include "granum/product/surface.hpp"
 
 #include "granum/math/constants.hpp"
@@ -62,8 +63,7 @@ TEST(Surface, is_covered_and_varies_as_poisson_says)
         for (std::size_t n = 0; n < sample.size(); ++n) {
             base::Random random(1, base::Purpose::test, n, static_cast<std::uint32_t>(10 * row.hits));
             // In several falls, as the events of a run come.
-            for (int part = 0; part < 5; ++part)
-                fall(sample[n], {row.hits / share / 5, radius, base, 1e-16}, random);
+            for (int part = 0; part < 5; ++part) fall(sample[n], {row.hits / share / 5, radius, base, 1e-16}, random);
         }
         auto const got = statistics(sample);
         // Standard errors: a granule has row.hits / share (40 to 2000) deposits.
@@ -73,7 +73,8 @@ TEST(Surface, is_covered_and_varies_as_poisson_says)
         double const fallen = row.hits / share * 1e-16 / (4 * math::pi * radius * radius);
         EXPECT_NEAR(got.mean_thickness, fallen, 4 * error * fallen) << row.hits;
         // Among granules the number of deposits varies as 1 / sqrt(number).
-        EXPECT_NEAR(got.variation_between, std::sqrt(share / row.hits), 4 * std::sqrt(share / row.hits / 80)) << row.hits;
+        EXPECT_NEAR(got.variation_between, std::sqrt(share / row.hits), 4 * std::sqrt(share / row.hits / 80))
+            << row.hits;
     }
 }
 

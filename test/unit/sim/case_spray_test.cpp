@@ -106,4 +106,20 @@ TEST(SprayCase, takes_the_size_of_its_droplets_from_a_correlation)
     auto const no_pressure = mistakes_of(with("atomisation = \"walzel\"\n", "air = \"1 kg/h\"\nbore = \"1 mm\"\n"));
     EXPECT_NE(no_pressure.find("nozzle[0].air_pressure"), std::string::npos) << no_pressure;
 }
+
+TEST(SprayCase, refuses_what_would_leave_nothing_to_dry)
+{
+    auto const refused = [](std::string const& spray, std::string const& rest, char const* why) {
+        auto const what = mistakes_of(with(spray, rest));
+        EXPECT_NE(what.find(why), std::string::npos) << spray << rest << what;
+    };
+    refused("splash_least = 0.5\nsplash_range = 0.6\n", "", "spray.splash_range");
+    refused("solubility = 0\nlocking = 0.1\n", "", "the share that solids have in the feed, 0.235");
+    refused("", "[drying]\nequilibrium_moisture = 3\n", "the moisture of the feed, 2.333");
+    refused("", "[drying]\nequilibrium_moisture = 0.3\ncritical_moisture = 0.2\n", "drying.critical_moisture");
+    refused("", "[drying]\nrea_a = 0.9\n", "has no meaning for drying.stages = \"falling-rate\"");
+    refused("", "[drying]\nstages = \"reaction-engineering\"\ncritical_moisture = 0.2\n", "drying.critical_moisture");
+    refused("atomisation = \"lorenzetto-lefebvre\"\n", "air = \"1 kg/h\"\nbore = \"1 mm\"\nair_velocity = \"30 m/s\"\n",
+            "nothing tears the liquid");
+}
 }

@@ -191,7 +191,7 @@ TEST(SprayedBed, accounts_for_all_that_was_sprayed)
         for (auto const& droplet : simulation->droplets()) in_flight += droplet.liquid_water();
         EXPECT_LE(t.evaporated + simulation->readings().water_on_granules + in_flight, t.water + wet);
         for (auto const& event : simulation->take_events()) {
-            (event.initial > 0 ? initial : solids) += event.solids;
+            initial += event.initial * event.solids, solids += (1 - event.initial) * event.solids;
             ++events;
         }
     }
@@ -213,7 +213,7 @@ TEST(SprayedBed, accounts_for_all_that_was_sprayed)
 
 TEST(SprayedBed, accounts_for_what_splashes_and_for_dust_that_does_not_stick)
 {
-    // A suspension in fine droplets that lock before they reach the bed, and coarse ones that all splash.
+    // Droplets that all splash, and a suspension whose droplets lock before they reach the bed.
     for (bool const splash : {true, false}) {
         auto text = spray_bed;
         auto const at = text.find("[spray]\n") + 8;
@@ -225,12 +225,12 @@ TEST(SprayedBed, accounts_for_what_splashes_and_for_dust_that_does_not_stick)
         EXPECT_GT(t.deposited, 0);
         if (!splash) EXPECT_GT(t.rebounds, 10);
         EXPECT_NEAR(t.deposited + t.walls + t.overspray + t.in_flight, t.solids, 1e-12 * t.solids);
-        double shares = 0, crusted = 0, events = 0;
+        double shares = 0, dry = 0, events = 0;
         for (auto const& event : simulation->take_events())
-            if (event.initial == 0) shares += event.splashed, crusted += event.crust, ++events;
+            if (event.initial == 0) shares += event.splashed, dry += event.dry, ++events;
         ASSERT_GT(events, 10);
         if (splash) EXPECT_NEAR(shares / events, 0.5, 0.2);  // some are the second droplet of one that has splashed
-        if (splash) EXPECT_EQ(crusted, 0);
+        EXPECT_LT(dry, splash ? 1 : events + 1);
         EXPECT_LT(simulation->ledgers().solids.relative_error(), 1e-9);
         EXPECT_LT(simulation->ledgers().water.relative_error(), 1e-9);
         EXPECT_LT(simulation->ledgers().energy.relative_error(), 1e-6);

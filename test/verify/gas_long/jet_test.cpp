@@ -23,8 +23,8 @@ TEST(Jet, spreads_as_fast_as_k_epsilon_is_known_to)
             "[[outlet]]\nend = \"right\"\nresistance = \"0 Pa.s/m\"\n[[outlet]]\nend = \"back\"\nresistance = "
             "\"0 Pa.s/m\"\n",
             mouth, 1.2 * speed * math::pi / 16 * mouth * mouth));
-    // Courant number 0.7: of 2.4 the core of the jet sheds rings that carry off what the model should, and the spread is
-    // that of neither.
+    // Courant number 0.7: of 2.4 the core of the jet sheds rings that carry off what the model should, and the spread
+    // is that of neither.
     text.insert(text.find("[gas]"), "gas_step = \"0.15 ms\"\n");
     auto const simulation = scene::simulation_of(text);
     while (simulation->time() < 0.15) simulation->step(1e9);

@@ -1,5 +1,6 @@
-// What slows a deposit as it dries: a family of laws. Each takes what the surface would be at (its water activity by the law
-// of solutions) and how moist the deposit is, and gives the activity that drives evaporation and a factor on the rate.
+// What slows a deposit as it dries: a family of laws. Each takes what the surface would be at (its water activity by
+// the law of solutions) and how moist the deposit is, and gives the activity that drives evaporation and a factor on
+// the rate.
 #pragma once
 
 #include "granum/base/type_list.hpp"
@@ -44,14 +45,15 @@ struct FallingRate
     }
 };
 
-//! The activation energy of evaporation rises as moisture falls: DE / DE_inf = a exp(-b (X - X_eq)^c), DE_inf that of the
-//! moisture in equilibrium with the gas.
+//! Whatever the solution: the activation energy of evaporation rises as moisture falls: DE / DE_inf = a exp(-b (X -
+//! X_eq)^c), DE_inf that of the moisture in equilibrium with the gas.
 struct ReactionEngineering
 {
-    static constexpr base::Card card{.name = "reaction-engineering",
-                                     .title = "reaction engineering approach",
-                                     .source = "Chen, Drying Technol. 26 (2008) 627 (recalled); defaults: skim milk, 20 %",
-                                     .valid = "materials whose three numbers have been fitted to one drying curve"};
+    static constexpr base::Card card{
+        .name = "reaction-engineering",
+        .title = "reaction engineering approach",
+        .source = "Chen, Drying Technol. 26 (2008) 627 (recalled); defaults: skim milk, 20 %",
+        .valid = "materials whose three numbers have been fitted to one drying curve"};
 
     double a = 0.998, b = 1.405, c = 0.930;
 
@@ -61,7 +63,7 @@ struct ReactionEngineering
         double const share = std::min(1.0, a * std::exp(-b * std::pow(above, c)));
         // exp(-share DE_inf / (R T)) with DE_inf = -R T_gas ln(relative humidity).
         double const humidity = std::clamp(at.relative_humidity, 1e-9, 1.0);
-        return {at.activity * std::pow(humidity, share * at.gas_over_surface), 1};
+        return {std::pow(humidity, share * at.gas_over_surface), 1};
     }
 };
 

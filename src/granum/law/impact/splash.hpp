@@ -4,7 +4,6 @@
 // much splashes off and into how many droplets varies widely; share and number are recalled, unverified defaults.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace granum::law::impact
@@ -27,14 +26,12 @@ struct Impact
 
 struct Splash
 {
-    double limit = 57.7;              //!< of K
-    double least = 0.2, range = 0.6;  //!< share of the mass that splashes off: least + range times a uniform number
-    double droplets = 4;              //!< into which it parts
+    double limit = 57.7;  //!< of K
+    double least = 0.2,
+           range = 0.6;   //!< share of the mass that splashes off: least + range times a uniform number; below 1
+    double droplets = 4;  //!< into which it parts
 
     //! Share of the droplet's mass that splashes off, with `uniform` drawn from 0 to 1.
-    double share(double mundo, double uniform) const
-    {
-        return mundo > limit ? std::min(1.0, least + range * uniform) : 0;
-    }
+    double share(double mundo, double uniform) const { return mundo > limit ? least + range * uniform : 0; }
 };
 }
