@@ -179,7 +179,7 @@ inline void write_run_events(std::string const& path, RunFolderScene const& scen
                                    {"drying_time", "s", "from impact to dry"},
                                    {"mean_drying_potential", "1", "mean over the drying time"},
                                    {"normal_speed", "m/s", "of the impact"},
-                                   {"initial", "1", "1: placed by the quasi-steady start"},
+                                   {"initial", "1", "share placed by the quasi-steady start"},
                                    {"porosity", "1", "of the layer element"}});
     for (int event = 0; event < scene.events; ++event) {
         double const eta = 0.68 + 0.05 * number.normal();

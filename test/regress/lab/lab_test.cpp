@@ -67,9 +67,9 @@ struct Finished
     {
         double sum = 0, solids = 0;
         for (std::size_t row = 0; row < events.rows(); ++row) {
-            if (event("initial")[row] > 0) continue;
-            sum += event("solids")[row] * event(name)[row];
-            solids += event("solids")[row];
+            double const sprayed = (1 - event("initial")[row]) * event("solids")[row];
+            sum += sprayed * event(name)[row];
+            solids += sprayed;
         }
         return sum / solids;
     }
@@ -270,9 +270,11 @@ TEST_F(Lab, every_dried_deposit_left_one_event)
     long sprayed = 0;
     double solids = 0, old_solids = 0;
     for (std::size_t row = 0; row < run.events.rows(); ++row) {
-        bool const old = run.event("initial")[row] > 0;
+        // Droplets that fell on deposits of the start left events with solids of both.
+        double const share = run.event("initial")[row], all = run.event("solids")[row];
+        bool const old = share >= 1;
         sprayed += !old;
-        (old ? old_solids : solids) += run.event("solids")[row];
+        old_solids += share * all, solids += (1 - share) * all;
         ASSERT_LE(run.event("t_dry_end")[row], number("/run/simulated_s") * (1 + 1e-12));
         ASSERT_EQ(run.event("t_deposit")[row] < 0, old);
     }

@@ -81,7 +81,7 @@ TEST_P(Stopped, first_signal_leaves_complete_results)
         EXPECT_NEAR(series.find("time")->back(), reached, 1e-6 * reached) << "the last step is in the series";
         auto const events = io::read_events(in_run("events.h5"));
         long sprayed = 0;
-        for (double const initial : *events.find("initial")) sprayed += initial == 0;
+        for (double const initial : *events.find("initial")) sprayed += initial < 1;
         EXPECT_EQ(sprayed, summary["events"]["count"].get<long>());
         EXPECT_GT(sprayed, 0);
         for (auto const* kind : {"granules.pvd", "droplets.pvd", "gas.pvd"})
