@@ -67,7 +67,7 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             sum += deposit.weight * limit.back().cap;
             area += deposit.weight * deposit.base_radius * deposit.base_radius;
         }
-        bool const one_film = math::pi * area > settings_.film_coverage * count * math::pi * diameter * diameter;
+        bool const one_film = coverage(open, count, diameter) >= settings_.film_coverage;
         double const full =
             law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
         double lost = 0, dried_solids = 0, dried_volume = 0;

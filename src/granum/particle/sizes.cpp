@@ -136,25 +136,25 @@ SizeDistribution SizeDistribution::rosin_rammler(double characteristic, double e
 
 double SizeDistribution::diameter(double u) const
 {
-    auto const at = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
-    if (at == cumulative_.end()) return diameters_.back();
-    auto const k = static_cast<std::size_t>(at - cumulative_.begin());
-    if (stepwise_) return diameters_[k];
-    if (k == 0) return diameters_.front();
-    double const part = (u - cumulative_[k - 1]) / (cumulative_[k] - cumulative_[k - 1]);
-    return diameters_[k - 1] + part * (diameters_[k] - diameters_[k - 1]);
+    return quantile(cumulative_, u, 1);
 }
 
 double SizeDistribution::mass_diameter(double u) const
 {
-    auto const at = std::upper_bound(mass_cumulative_.begin(), mass_cumulative_.end(), u);
-    if (at == mass_cumulative_.end()) return diameters_.back();
-    auto const k = static_cast<std::size_t>(at - mass_cumulative_.begin());
+    // Diameters are spread evenly by number between two points, so the mass below one grows with its fourth power.
+    return quantile(mass_cumulative_, u, 4);
+}
+
+double SizeDistribution::quantile(std::vector<double> const& cumulative, double u, int power) const
+{
+    auto const at = std::upper_bound(cumulative.begin(), cumulative.end(), u);
+    if (at == cumulative.end()) return diameters_.back();
+    auto const k = static_cast<std::size_t>(at - cumulative.begin());
     if (stepwise_) return diameters_[k];
     if (k == 0) return diameters_.front();
-    // Diameters are spread evenly by number between two points, so the mass below one grows with its fourth power.
-    double const part = (u - mass_cumulative_[k - 1]) / (mass_cumulative_[k] - mass_cumulative_[k - 1]);
-    double const low = std::pow(diameters_[k - 1], 4), high = std::pow(diameters_[k], 4);
-    return std::pow(low + part * (high - low), 0.25);
+    double const part = (u - cumulative[k - 1]) / (cumulative[k] - cumulative[k - 1]);
+    if (power == 1) return diameters_[k - 1] + part * (diameters_[k] - diameters_[k - 1]);
+    double const low = std::pow(diameters_[k - 1], power), high = std::pow(diameters_[k], power);
+    return std::pow(low + part * (high - low), 1.0 / power);
 }
 }

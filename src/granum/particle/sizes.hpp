@@ -48,6 +48,9 @@ class SizeDistribution
   private:
     SizeDistribution(std::vector<double> diameters, std::vector<double> number_shares, bool stepwise);
 
+    //! Diameter below which `u` of a cumulative curve lies; between two points it grows with a power of the diameter.
+    double quantile(std::vector<double> const& cumulative, double u, int power) const;
+
     // Stepwise: the share of diameters_[k] ends at cumulative_[k]. Otherwise straight between the points.
     std::vector<double> diameters_, cumulative_, mass_cumulative_;
     bool stepwise_ = true;

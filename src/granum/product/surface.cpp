@@ -1,6 +1,7 @@
 #include "granum/product/surface.hpp"
 
 #include "granum/math/constants.hpp"
+#include "granum/math/random_direction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,11 +73,8 @@ double Surface::variation() const
 
 void fall(Surface& surface, Fall const& what, base::Random& random)
 {
-    for (long n = random.poisson(what.per_granule); n > 0; --n) {
-        double const up = 2 * random.uniform() - 1, turn = 2 * math::pi * random.uniform();
-        double const side = std::sqrt(1 - up * up);
-        surface.add({side * std::cos(turn), side * std::sin(turn), up}, what.radius, what.base_radius, what.volume);
-    }
+    for (long n = random.poisson(what.per_granule); n > 0; --n)
+        surface.add(math::random_direction(random), what.radius, what.base_radius, what.volume);
 }
 
 SurfaceStatistics statistics(std::vector<Surface> const& sample)

@@ -2,8 +2,9 @@
 //
 // A granule of the simulation stands for many and knows only how much has been deposited on all of them. Here each of a
 // sample of real granules has its sphere of panels, every dried deposit falls on it as often as chance (Poisson) has
-// it, at places spread evenly over the sphere, and adds its height to the panels whose middles lie under it. Sources:
-// physics.md 5.5; Jiang et al., Chem. Eng. Sci. (2020) for the idea of panels.
+// it, at places spread evenly over the sphere, and adds its height to the panels whose middles lie under it.
+//
+// Source: physics.md 5.5. Panels on granules are an idea of Jiang, Rieck, Bueck and Tsotsas (2020; abstract only).
 #pragma once
 
 #include "granum/base/random.hpp"

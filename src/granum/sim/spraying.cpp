@@ -1,6 +1,7 @@
 // The spray in the simulation: air of the nozzles into the gas, droplets through it and onto granules.
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
+#include "granum/math/random_direction.hpp"
 #include "granum/sim/simulation.hpp"
 
 #include <algorithm>
@@ -114,11 +115,8 @@ std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit, std::ui
     base::Random random(case_.seed, base::Purpose::impact, striking.id, stream);
     double const sine = std::sqrt(random.uniform()), draw = random.uniform();
     auto const fly_on = [&](spray::Droplet& rest) {
-        double const up = 2 * random.uniform() - 1, turn = 2 * math::pi * random.uniform();
-        double const side = std::sqrt(1 - up * up);
         Vec3 const before = rest.velocity;
-        rest.velocity =
-            granules_.velocity[row] + kept_speed * hit.speed * Vec3{side * std::cos(turn), side * std::sin(turn), up};
+        rest.velocity = granules_.velocity[row] + kept_speed * hit.speed * math::random_direction(random);
         granules_.velocity[row] += rest.mass() / granules_.mass[row] * (before - rest.velocity);
     };
     // What is dry sticks where it falls on a wet spot only.

@@ -80,7 +80,8 @@ TEST(Cavity, with_a_hot_and_a_cold_side_carries_the_heat_of_de_vahl_davis)
     double const conductivity = viscosity * capacity / prandtl, alpha = conductivity / capacity;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         double const rayleigh = table.number(row, "Ra");
-        // Cells of 6 mm at the hot and the cold side, where the gas rises and falls: 80 across, as upwards.
+        // Cells of 6 mm at the hot and the cold side, where the gas rises and falls. On 80 x 80 equal cells the Nusselt
+        // number at 1e6 is 2.2 % above the published one; at the other three all holds within 1 %.
         int const cells = 80;
         double const expansion = rayleigh * viscosity * alpha / 9.81;  // of 1 K over 1 m at 9.81 m/s2
         auto text = scene::gas_in_box(
@@ -123,7 +124,8 @@ TEST(Cavity, with_a_hot_and_a_cold_side_carries_the_heat_of_de_vahl_davis)
         auto const [u_max, at_z] = lines.u.largest();
         auto const [w_max, at_x] = lines.w.largest();
         auto const say = [&](char const* what) {
-            return fmt::format("heated cavity, Ra {}, {} x {}: {}", rayleigh, grid.n[0], grid.n[2], what);
+            return fmt::format("heated cavity, Ra {}, {} x {}, finer at the sides: {}", rayleigh, grid.n[0], grid.n[2],
+                               what);
         };
         verify::relative("CFD08", say("mean Nusselt number"), table.number(row, "Nu_mean"), mean, 0.01);
         verify::relative("CFD08", say("Nusselt number of the hot wall"), table.number(row, "Nu_hot_wall"), hot, 0.01);
