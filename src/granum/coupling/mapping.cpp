@@ -143,17 +143,43 @@ Stencil Mapping::stencil(Vec3 const& position, double radius) const
     return out;
 }
 
+void Mapping::place_cells(particle::Store const& granules)
+{
+    Vec3 low = granules.owned > 0 ? granules.position[0] : Vec3{}, high = low;
+    for (std::size_t row = 0; row < granules.owned; ++row)
+        for (std::size_t d = 0; d < 3; ++d) {
+            low[d] = std::min(low[d], granules.position[row][d]);
+            high[d] = std::max(high[d], granules.position[row][d]);
+        }
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    Vec3 const extent = high - low;
+    std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return extent[a] < extent[b]; });
+    if (axes == fastest_ && !place_.empty()) return;
+    fastest_ = axes;
+    place_.resize(grid_.size());
+    std::array<std::uint32_t, 3> stride{};
+    std::uint32_t next = 1;
+    for (auto const d : axes) stride[d] = next, next *= static_cast<std::uint32_t>(grid_.n[d] + 2);
+    for (int k = -1; k <= grid_.n[2]; ++k)
+        for (int j = -1; j <= grid_.n[1]; ++j)
+            for (int i = -1; i <= grid_.n[0]; ++i)
+                place_[grid_.at({i, j, k})] = static_cast<std::uint32_t>(i + 1) * stride[0] +
+                                              static_cast<std::uint32_t>(j + 1) * stride[1] +
+                                              static_cast<std::uint32_t>(k + 1) * stride[2];
+}
+
 void Mapping::locate(particle::Store const& granules)
 {
     stencils_.resize(granules.owned);
     order_.resize(granules.owned);
     count_.assign(grid_.size() + 1, 0);
+    place_cells(granules);
     for (std::size_t row = 0; row < granules.owned; ++row) {
         stencils_[row] = stencil(granules.position[row], granules.radius[row]);
-        ++count_[stencils_[row].base + 1];
+        ++count_[place_[stencils_[row].base] + 1];
     }
     for (std::size_t c = 1; c < count_.size(); ++c) count_[c] += count_[c - 1];
-    for (std::uint32_t row = 0; row < granules.owned; ++row) order_[count_[stencils_[row].base]++] = row;
+    for (std::uint32_t row = 0; row < granules.owned; ++row) order_[count_[place_[stencils_[row].base]]++] = row;
     // count_[c] is now the end of cell c.
     std::uint32_t begin = 0;
     for (std::size_t c = 0; c < grid_.size(); ++c) {
