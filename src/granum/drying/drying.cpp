@@ -42,91 +42,137 @@ Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, d
                     law::deposit::boundary_layer_rate(sherwood, diameter, math::pi * diameter * diameter, film)};
 }
 
+void Drying::evaporation_rates(std::vector<Deposit> const& open, Surroundings const& seen, std::size_t row,
+                               double temperature, double diameter, double count, Rates& rates) const
+{
+    double const saturation = air::saturation_pressure(temperature) / settings_.pressure;
+    law::deposit::Film const film =
+        law::deposit::film(temperature, 1.0, seen.temperature[row], seen.vapour_fraction[row], settings_.pressure);
+    double const humidity =
+        air::relative_humidity(seen.temperature[row], air::loading(seen.vapour_fraction[row]), settings_.pressure);
+    bool const one_film = coverage(open, count, diameter) >= settings_.film_coverage;
+    auto& limit = rates.limit;
+    limit.clear();
+    double sum = 0, area = 0;
+    for (auto const& deposit : open) {
+        limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter, humidity,
+                               seen.temperature[row] / temperature));
+        sum += deposit.weight * limit.back().cap;
+        area += deposit.weight * deposit.base_radius * deposit.base_radius;
+    }
+    double const full =
+        law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
+    rates.cap.resize(open.size());
+    for (std::size_t k = 0; k < open.size(); ++k)
+        // Of one film each deposit has its share by area.
+        rates.cap[k] =
+            one_film ? limit[k].film * count * open[k].base_radius * open[k].base_radius / area
+                     : std::visit([&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
+                                  settings_.combine);
+}
+
+Drying::Change Drying::evaporate(Deposit const& deposit, double rate, double dt) const
+{
+    double const dry = dry_water(deposit.solute), leaving = deposit.weight * rate * dt;
+    if (deposit.water - leaving > dry) return {.water = leaving};
+    // One that arrives as dry as that still meets the gas for a moment, so that its means are not 0 / 0.
+    return {.lasts = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 1e-9, 1.0) : 1,
+            .water = std::max(0.0, deposit.water - settings_.equilibrium_moisture * deposit.solute),
+            .ends = true};
+}
+
+Drying::Change Drying::solidify(Deposit const& deposit, double sherwood, double diameter, double gas, double granule,
+                                double dt) const
+{
+    Liquid const& liquid = settings_.liquid;
+    double const angle =
+        law::wetting::pinned_angle(deposit.solute / liquid.solids_density / deposit.weight, deposit.base_radius);
+    double const film = 0.5 * (gas + liquid.melting_point);
+    double const density = air::density(settings_.pressure, film, 0);
+    double const schmidt = air::viscosity(film) / (density * air::diffusivity(film, settings_.pressure));
+    double const prandtl = air::viscosity(film) * air::heat_capacity(0) / air::conductivity(film);
+    // Heat like vapour: the number of one is that of the other times the cube root of Pr / Sc.
+    double const transfer = sherwood * std::cbrt(prandtl / schmidt) * air::conductivity(film) / diameter;
+    law::deposit::MeltCap const cap{.base_radius = deposit.base_radius,
+                                    .area = law::wetting::cap_area(deposit.base_radius, angle),
+                                    .heat_transfer = transfer,
+                                    .conductivity = liquid.conductivity,
+                                    .above_gas = liquid.melting_point - gas,
+                                    .above_granule = liquid.melting_point - granule};
+    double const power =
+        deposit.weight * std::visit([&](auto const& law) { return law(cap); }, settings_.solidification);
+    double const leaving = std::max(0.0, power) * dt;
+    if (deposit.heat > leaving) return {.heat = leaving};
+    return {
+        .lasts = leaving > 0 ? std::clamp(deposit.heat / leaving, 1e-9, 1.0) : 1, .heat = deposit.heat, .ends = true};
+}
+
+Event Drying::finish(Deposit const& deposit, double count, double diameter) const
+{
+    Event event = deposit.record;
+    double const time = event.drying_time = deposit.time;
+    event.solids = deposit.solute;
+    event.footprint = deposit.base_radius;
+    event.granule_diameter = diameter;
+    event.per_granule = deposit.weight / count;
+    event.weight = deposit.weight;
+    event.mean_gas_temperature = deposit.gas_temperature / time;
+    event.mean_gas_humidity = deposit.gas_humidity / time;
+    event.mean_drying_potential = deposit.drying_potential / time;
+    event.mean_granule_temperature = deposit.granule_temperature / time;
+    event.mean_slip = deposit.slip / time;
+    // Without the trace, which leaves at once at the end.
+    double const foot = math::pi * deposit.base_radius * deposit.base_radius;
+    event.mean_flux =
+        std::max(deposit.water_at_impact - dry_water(deposit.solute), 0.0) / (deposit.weight * foot * time);
+    event.porosity = settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
+    return event;
+}
+
 void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
                      std::vector<double>& evaporated, std::vector<Event>& events) const
 {
     Liquid const& liquid = settings_.liquid;
     evaporated.assign(granules.owned, 0.0);
-    std::vector<Limits> limit;
+    Rates rates;
     for (std::size_t row = 0; row < granules.owned; ++row) {
         auto& open = deposits.on(granules.id[row]);
         if (open.empty()) continue;
         double const temperature = granules.temperature[row], diameter = granules.diameter[row];
         double const count = granules.count[row];
-        double const saturation = air::saturation_pressure(temperature) / settings_.pressure;
-        law::deposit::Film const film =
-            law::deposit::film(temperature, 1.0, seen.temperature[row], seen.vapour_fraction[row], settings_.pressure);
-
-        limit.clear();
-        double sum = 0, area = 0;
-        double const humidity =
-            air::relative_humidity(seen.temperature[row], air::loading(seen.vapour_fraction[row]), settings_.pressure);
-        for (auto const& deposit : open) {
-            limit.push_back(limits(deposit, film, saturation, seen.sherwood[row], diameter, humidity,
-                                   seen.temperature[row] / temperature));
-            sum += deposit.weight * limit.back().cap;
-            area += deposit.weight * deposit.base_radius * deposit.base_radius;
-        }
-        bool const one_film = coverage(open, count, diameter) >= settings_.film_coverage;
-        double const full =
-            law::deposit::boundary_layer_rate(seen.sherwood[row], diameter, math::pi * diameter * diameter, film);
+        if (!liquid.melt()) evaporation_rates(open, seen, row, temperature, diameter, count, rates);
         double lost = 0, dried_solids = 0, dried_volume = 0;
         std::size_t kept = 0;
         for (std::size_t k = 0; k < open.size(); ++k) {
             Deposit& deposit = open[k];
-            double const foot = math::pi * deposit.base_radius * deposit.base_radius;
-            // Of one film each deposit has its share by area.
-            double const rate =
-                one_film
-                    ? limit[k].film * count * deposit.base_radius * deposit.base_radius / area
-                    : std::visit([&](auto const& law) { return law(limit[k].cap, sum / count, limit[k].layer, full); },
-                                 settings_.combine);
-            double const dry = dry_water(deposit.solute);
-            double const leaving = deposit.weight * rate * dt;
-            double fraction = 1;  // of the step until the deposit is dry
-            double gone = leaving;
-            bool const ends = deposit.water - leaving <= dry;
-            if (ends) {
-                // One that arrives as dry as that still meets the gas for a moment, so that its means are not 0 / 0.
-                fraction = leaving > 0 ? std::clamp((deposit.water - dry) / leaving, 1e-9, 1.0) : 1;
-                gone = std::max(0.0, deposit.water - settings_.equilibrium_moisture * deposit.solute);
-            }
-            double const moisture = deposit.water / deposit.solute;
-            double const h = fraction * dt;
+            Change const change =
+                liquid.melt() ? solidify(deposit, seen.sherwood[row], diameter, seen.temperature[row], temperature, dt)
+                              : evaporate(deposit, rates.cap[k], dt);
+            double const h = change.lasts * dt;
             deposit.time += h;
             deposit.gas_temperature += h * seen.temperature[row];
             deposit.gas_humidity += h * air::loading(seen.vapour_fraction[row]);
             deposit.drying_potential += h * seen.drying_potential[row];
             deposit.granule_temperature += h * temperature;
             deposit.slip += h * seen.slip[row];
-            deposit.record.max_flux = std::max(deposit.record.max_flux, rate / foot);
-            if (liquid.solubility > 0 && moisture * liquid.solubility > 1) deposit.record.constant_rate_time += h;
-            deposit.water -= gone;
-            lost += gone;
-            if (!ends) {
+            if (!liquid.melt()) {
+                double const foot = math::pi * deposit.base_radius * deposit.base_radius;
+                deposit.record.max_flux = std::max(deposit.record.max_flux, rates.cap[k] / foot);
+                if (liquid.solubility > 0 && deposit.water * liquid.solubility > deposit.solute)
+                    deposit.record.constant_rate_time += h;
+            }
+            deposit.water -= change.water;
+            deposit.heat -= change.heat;
+            lost += change.water;
+            granules.enthalpy[row] += change.heat;
+            if (!change.ends) {
                 if (kept != k) open[kept] = deposit;
                 ++kept;
                 continue;
             }
-            Event event = deposit.record;
-            double const time = deposit.time;
+            Event event = finish(deposit, count, diameter);
             event.granule = static_cast<double>(granules.id[row]);
             event.t_dry_end = now - dt + h;
-            event.solids = deposit.solute;
-            event.footprint = deposit.base_radius;
-            event.granule_diameter = diameter;
-            event.per_granule = deposit.weight / count;
-            event.weight = deposit.weight;
-            event.drying_time = deposit.time;
-            event.mean_gas_temperature = deposit.gas_temperature / time;
-            event.mean_gas_humidity = deposit.gas_humidity / time;
-            event.mean_drying_potential = deposit.drying_potential / time;
-            event.mean_granule_temperature = deposit.granule_temperature / time;
-            event.mean_slip = deposit.slip / time;
-            // Without the trace, which leaves at once at the end.
-            event.mean_flux = std::max(deposit.water_at_impact - dry, 0.0) / (deposit.weight * foot * time);
-            event.porosity =
-                settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
             dried_solids += deposit.solute;
             dried_volume += deposit.solute / (liquid.solids_density * (1 - event.porosity));
             events.push_back(event);

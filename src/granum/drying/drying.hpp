@@ -1,15 +1,18 @@
-// Drying of the deposits on each granule, their solids joining the layer, and the events that say how it went.
+// Drying of the deposits on each granule (of a melt: solidification), their solids joining the layer, and the events
+// that say how it went.
 //
 // Every cap on a granule has the granule's temperature. Its evaporation lies between that of an isolated cap and its
 // share of the granule's boundary layer, as the chosen law combines them (physics.md 5.2); where they cover nearly all
 // of the granule they dry as one film. A deposit is dry when its moisture has fallen to `end_moisture` of the feed's
 // above that of equilibrium; the trace left above equilibrium then evaporates in the same step, the rest stays in the
-// layer.
+// layer. A melt has its melting point until its heat of fusion has gone, through its surface and into its granule; all
+// of it is put to the granule's account, which passes it on to the gas.
 #pragma once
 
 #include "granum/drying/deposits.hpp"
 #include "granum/law/deposit/all.hpp"
 #include "granum/law/deposit/rates.hpp"
+#include "granum/law/deposit/solidification.hpp"
 #include "granum/law/deposit/stages.hpp"
 #include "granum/particle/store.hpp"
 
@@ -27,6 +30,9 @@ struct Liquid
     double molar_mass = 0.1;       //!< of the solute, kg/mol
     double dissociation = 1;
     double feed_moisture = 1;  //!< kg water per kg solids
+    double melting_point = 0;  //!< K, of a melt; 0: no melt
+    double conductivity = 0;   //!< of melt and granule, W/m/K
+    bool melt() const { return melting_point > 0; }
 };
 
 struct Settings
@@ -34,6 +40,7 @@ struct Settings
     law::deposit::Any combine;
     Liquid liquid;
     law::deposit::AnyStages stages{};
+    law::deposit::AnySolidification solidification{};
     double equilibrium_moisture = 0;  //!< kg/kg that stays in the layer
     double end_moisture = 0.01;       //!< of the feed's moisture, above that of equilibrium
     double film_coverage = 0.9;       //!< above it the deposits of a granule dry as one film
@@ -80,6 +87,27 @@ class Drying
     Settings const& settings() const { return settings_; }
 
   private:
+    //! What a step does to all caps of a deposit.
+    struct Change
+    {
+        double lasts = 1;  //!< share of the step until the deposit is dry or solid; 1 if it is not
+        double water = 0;  //!< kg that evaporate
+        double heat = 0;   //!< J of fusion that the granule gets
+        bool ends = false;
+    };
+    //! Of each deposit of a granule; kept from granule to granule so that nothing is allocated.
+    struct Rates
+    {
+        std::vector<Limits> limit;
+        std::vector<double> cap;  //!< kg/s of one cap; negative where it takes up water
+    };
+    void evaporation_rates(std::vector<Deposit> const& open, Surroundings const& seen, std::size_t row,
+                           double temperature, double diameter, double count, Rates& rates) const;
+    Change evaporate(Deposit const& deposit, double rate, double dt) const;
+    Change solidify(Deposit const& deposit, double sherwood, double diameter, double gas, double granule,
+                    double dt) const;
+    Event finish(Deposit const& deposit, double count, double diameter) const;
+
     Settings settings_;
 };
 

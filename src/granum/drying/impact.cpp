@@ -15,7 +15,8 @@ namespace
 //! Of equal caps a part of that number.
 Deposit part_of(Deposit whole, double share)
 {
-    for (double Deposit::*amount : {&Deposit::weight, &Deposit::water, &Deposit::solute, &Deposit::water_at_impact})
+    for (double Deposit::*amount :
+         {&Deposit::weight, &Deposit::water, &Deposit::solute, &Deposit::water_at_impact, &Deposit::heat})
         whole.*amount *= share;
     return whole;
 }
@@ -34,6 +35,7 @@ void join(std::vector<Deposit>& open, Deposit const& fresh, double draw, Arrival
     Deposit both = fresh;
     both.weight = caps;
     both.water += below.water, both.solute += below.solute, both.water_at_impact += below.water;
+    both.heat += below.heat;
     // The wider of both contact lines, or that of a cap at rest of both.
     double const volume = (both.water + both.solute) / caps / droplet.density;
     both.base_radius =
@@ -60,6 +62,7 @@ void deposit(particle::Store& granules, std::size_t row, Deposits& deposits, Arr
     fresh.weight = droplet.weight;
     fresh.water = fresh.water_at_impact = droplet.weight * droplet.water;
     fresh.solute = droplet.weight * droplet.solute;
+    fresh.heat = droplet.heat;
     double const left = droplet.diameter * std::cbrt(1 - droplet.splashed);
     fresh.base_radius =
         droplet.dry ? 0.5 * droplet.diameter

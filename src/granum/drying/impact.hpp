@@ -14,7 +14,8 @@ struct Arrival
     double water = 0, solute = 0;                                               //!< kg of one droplet
     double diameter = 0;                                                        //!< m, before any splashing
     double temperature = 0;                                                     //!< K
-    double enthalpy = 0;                                                        //!< J of the whole parcel
+    double enthalpy = 0;                                                        //!< J of the whole parcel, less `heat`
+    double heat = 0;                                                            //!< J until the parcel's melt is solid
     double age = 0, path = 0;                                                   //!< s, m
     Vec3 position, velocity;                                                    //!< m, m/s
     double density = 0, viscosity = 0, surface_tension = 0, contact_angle = 0;  //!< of the liquid, SI

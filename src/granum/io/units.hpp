@@ -30,6 +30,7 @@ enum class Dimension
     surface_tension,
     stiffness,
     heat_capacity,
+    specific_energy,
     conductivity,
     molar_mass,
     power,

@@ -17,10 +17,11 @@ double enthalpy_per_dry(double temperature, double humidity)
            humidity * material::vapour_enthalpy(temperature);
 }
 
-double temperature_of(double enthalpy, double humidity)
+//! `solids`, J/K per kg of dry air: heat capacity of what leaves with the air's temperature beside it.
+double temperature_of(double enthalpy, double humidity, double solids = 0)
 {
     return math::zero_celsius + (enthalpy - humidity * material::evaporation_enthalpy_0) /
-                                    (material::heat_capacity_air + humidity * material::heat_capacity_vapour);
+                                    (material::heat_capacity_air + humidity * material::heat_capacity_vapour + solids);
 }
 }
 
@@ -86,8 +87,13 @@ Balance balance(Case const& data)
     out.wet_bulb = wet.temperature;
     out.wet_bulb_humidity = wet.humidity;
     out.outlet_humidity = out.inlet_humidity + out.water_rate / dry;
-    double const feed = out.water_rate / dry * material::water_enthalpy(data.spray.temperature);
-    out.outlet_temperature = temperature_of(heat / dry + feed, out.outlet_humidity);
+    double feed = out.water_rate / dry * material::water_enthalpy(data.spray.temperature), solids = 0;
+    if (auto const& spray = data.spray; spray.melting_point > 0) {
+        // All of a melt stays, as solid as warm as the bed.
+        solids = spray.rate / dry * data.granules.heat_capacity;
+        feed += solids * (spray.temperature - math::zero_celsius) + spray.rate / dry * spray.fusion_heat;
+    }
+    out.outlet_temperature = temperature_of(heat / dry + feed, out.outlet_humidity, solids);
     out.outlet_relative_humidity =
         material::relative_humidity(out.outlet_temperature, out.outlet_humidity, data.gas.pressure);
     double const capacity = wet.humidity - out.inlet_humidity;

@@ -31,7 +31,8 @@ double moist_mass_flow(Case const& data, InletCase const& inlet);
 double dry_inlet_flow(Case const& data);
 
 //! The balance of a case with inlets. Atomising air is another one: all are mixed by enthalpy and humidity; the liquid
-//! brings the enthalpy of its water at its temperature. Throws base::NumericsError where no dry air flows.
-//! Source: physics of adiabatic saturation, drying potential eta = (Y_wb - Y_out) / (Y_wb - Y_in).
+//! brings the enthalpy of its water at its temperature, a melt its heat of fusion and what it loses to the temperature
+//! of the outlet. Throws base::NumericsError where no dry air flows. Source: physics of adiabatic saturation, drying
+//! potential eta = (Y_wb - Y_out) / (Y_wb - Y_in).
 Balance balance(Case const& data);
 }

@@ -260,7 +260,9 @@ spray::Liquid spray_liquid(Case const& data)
             .contact_angle = s.contact_angle,
             .locking = s.locking,
             .solids_diffusivity = s.solids_diffusivity,
-            .crust_diffusivity = s.crust_diffusivity};
+            .crust_diffusivity = s.crust_diffusivity,
+            .melting_point = s.melting_point,
+            .fusion_heat = s.fusion_heat};
 }
 
 std::vector<spray::Nozzle> nozzles(Case const& data)
@@ -328,7 +330,10 @@ drying::Settings drying_settings(Case const& data)
                        .solubility = s.solubility,
                        .molar_mass = s.molar_mass,
                        .dissociation = s.dissociation,
-                       .feed_moisture = spray_liquid(data).feed_moisture()};
+                       .feed_moisture = spray_liquid(data).feed_moisture(),
+                       .melting_point = s.melting_point,
+                       .conductivity = s.conductivity};
+    settings.solidification = named<law::deposit::Solidification>(data.drying.solidification);
     settings.stages = named<law::deposit::Stages>(data.drying.stages);
     std::visit(
         [&](auto& law) {

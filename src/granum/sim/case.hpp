@@ -299,6 +299,9 @@ struct SprayCase
     std::optional<particle::SizeDistribution> size;  //!< instead of median and spread
     double locking = 0;                              //!< share of the volume at which solids lock; 0: they never do
     double solids_diffusivity = 0, crust_diffusivity = 0;  //!< m2/s
+    double melting_point = 0;                              //!< K, of a melt; 0: no melt
+    double fusion_heat = 0;                                //!< J/kg
+    double conductivity = 0;                               //!< of melt and granule, W/m/K
     law::impact::Splash splash;
     std::string atomisation = "none";  //!< law that gives each nozzle's median instead
     double parcels_per_second = 2e4;
@@ -313,6 +316,7 @@ struct DryingCase
 {
     std::string deposit = "combined";  //!< "cap", "boundary-layer" or "combined"
     std::string stages = "falling-rate";
+    std::string solidification = "gas-and-granule";
     double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none
     double falling_exponent = 1;
     std::array<double, 3> rea{0.998, 1.405, 0.930};  //!< a, b, c of the reaction engineering approach

@@ -164,8 +164,15 @@ void check_drying(io::CaseFile& file, Case const& data)
         if (file.wrong(key)) return;
     for (auto const& nozzle : data.spray.nozzles)
         if (!std::isfinite(nozzle.air_mass_flow + nozzle.air_temperature + nozzle.air_humidity)) return;
-    if (!has_balance(data) || !data.spray.present || data.spray.allow_overwetting) return;
+    if (!has_balance(data) || !data.spray.present) return;
     auto const steady = balance(data);
+    if (double const melting = data.spray.melting_point; melting > 0 && steady.outlet_temperature >= melting)
+        file.mistake(
+            "spray.melting_point",
+            fmt::format("is not above the temperature that the bed comes to, {:.1f} degC: nothing would solidify",
+                        steady.outlet_temperature - math::zero_celsius),
+            {"lower gas.temperature or spray.rate, or raise gas.flow"});
+    if (data.spray.allow_overwetting || data.spray.melting_point > 0) return;
     if (!steady.overwetted()) return;
     double const most =
         (steady.wet_bulb_humidity - steady.inlet_humidity) * steady.dry_mass_flow / (1 - data.spray.solids_fraction);

@@ -75,6 +75,30 @@ void atomise(io::CaseFile& file, std::string const& key, double ambient, SprayCa
                  fmt::format("by {}: Sauter diameter {:.4g} um", spray.atomisation, 1e6 * sauter));
 }
 
+//! What makes the liquid a melt.
+void read_melt(io::CaseFile& file, SprayCase& spray)
+{
+    spray.melting_point =
+        file.optional_quantity("spray.melting_point", Dimension::temperature,
+                               "of a melt, which solidifies and does not dry", {.low = 273.15, .high = 700})
+            .value_or(0);
+    bool const melt = spray.melting_point > 0;
+    auto const property = [&](char const* key, Dimension dimension, double& value, char const* doc) {
+        if (melt)
+            value = file.quantity(key, dimension, std::nullopt, doc, io::positive);
+        else if (file.know(key); file.has(key))
+            file.mistake(key, "has no meaning without spray.melting_point");
+    };
+    property("spray.fusion_heat", Dimension::specific_energy, spray.fusion_heat,
+             "that a melt gives when it solidifies");
+    property("spray.conductivity", Dimension::conductivity, spray.conductivity, "of melt and granule under it");
+    if (!melt) return;
+    for (auto const* name :
+         {"solubility", "molar_mass", "dissociation", "locking", "solids_diffusivity", "crust_diffusivity"})
+        if (auto const key = std::string("spray.") + name; file.has(key))
+            file.mistake(key, "has no meaning for a melt", {"leave it out, or leave out spray.melting_point"});
+}
+
 NozzleCase read_nozzle(io::CaseFile& file, std::string const& key, double ambient, Purpose purpose)
 {
     NozzleCase nozzle;
@@ -124,11 +148,14 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     spray.liquid = take_material(file, "spray.liquid", {"spray"});
     spray.rate = file.quantity("spray.rate", Dimension::mass_flow, std::nullopt, "liquid of all nozzles together",
                                io::not_negative);
-    spray.solids_fraction = file.quantity("spray.solids_fraction", Dimension::one, std::nullopt,
-                                          "kg solids per kg liquid", {.low = 0, .high = 0.99});
-    spray.temperature = file.quantity("spray.temperature", Dimension::temperature, spray.temperature, "of the liquid",
-                                      {.low = 273.15, .high = 373.15});
-    bool const whole = purpose == Purpose::run;
+    read_melt(file, spray);
+    bool const whole = purpose == Purpose::run, melt = spray.melting_point > 0;
+    spray.solids_fraction =
+        file.quantity("spray.solids_fraction", Dimension::one, melt ? std::optional(1.0) : std::nullopt,
+                      "kg solids per kg liquid; 1: a melt", {.low = melt ? 1.0 : 0, .high = melt ? 1 : 0.99});
+    spray.temperature =
+        file.quantity("spray.temperature", Dimension::temperature, melt ? spray.melting_point : spray.temperature,
+                      "of the liquid", {.low = melt ? spray.melting_point : 273.15, .high = melt ? 700 : 373.15});
     auto const property = [&](char const* key, Dimension dimension, double value, char const* doc, io::Range range) {
         return file.quantity(std::string("spray.") + key, dimension, whole ? std::nullopt : std::optional(value), doc,
                              range);
@@ -139,17 +166,23 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
         property("surface_tension", Dimension::surface_tension, spray.surface_tension, "of the liquid", io::positive);
     spray.solids_density = property("solids_density", Dimension::density, spray.solids_density,
                                     "of the dry solids without pores", io::positive);
-    spray.solubility = property("solubility", Dimension::one, spray.solubility,
-                                "kg solids per kg water; 0: a suspension", io::not_negative);
-    spray.molar_mass = property("molar_mass", Dimension::molar_mass, spray.molar_mass, "of the solute", io::positive);
-    spray.dissociation =
-        property("dissociation", Dimension::one, spray.dissociation, "ions per molecule (van 't Hoff)", io::positive);
+    if (melt) {
+        spray.solubility = 0;
+        for (auto const* key : {"spray.solubility", "spray.molar_mass", "spray.dissociation"}) file.know(key);
+    } else {
+        spray.solubility = property("solubility", Dimension::one, spray.solubility,
+                                    "kg solids per kg water; 0: a suspension", io::not_negative);
+        spray.molar_mass =
+            property("molar_mass", Dimension::molar_mass, spray.molar_mass, "of the solute", io::positive);
+        spray.dissociation = property("dissociation", Dimension::one, spray.dissociation,
+                                      "ions per molecule (van 't Hoff)", io::positive);
+    }
     spray.contact_angle = property("contact_angle", Dimension::angle, spray.contact_angle, "of a droplet on a granule",
                                    {.low = 0, .high = math::pi, .low_allowed = false});
-    spray.locking = file.quantity("spray.locking", Dimension::one,
-                                  whole && spray.solubility == 0 ? std::optional(locked_suspension) : spray.locking,
-                                  "share of a droplet's volume at which solids at its surface lock; 0: they never do",
-                                  {.low = 0, .high = 0.74});
+    spray.locking = file.quantity(
+        "spray.locking", Dimension::one,
+        whole && !melt && spray.solubility == 0 ? std::optional(locked_suspension) : spray.locking,
+        "share of a droplet's volume at which solids at its surface lock; 0: they never do", {.low = 0, .high = 0.74});
     spray.solids_diffusivity =
         file.quantity("spray.solids_diffusivity", Dimension::diffusivity, spray.solids_diffusivity,
                       "of the solids in the liquid: slow ones gather at the surface; 0: they do not", io::not_negative);
@@ -212,6 +245,14 @@ void read_process(io::CaseFile& file, Case& data)
     DryingCase& drying = data.drying;
     drying.stages =
         file.name("drying.stages", drying.stages, "law", laws_for("drying.stages"), "a law of drying stages");
+    bool const melt = data.spray.melting_point > 0;
+    drying.solidification = file.name("drying.solidification", drying.solidification, "law",
+                                      laws_for("drying.solidification"), "a law of solidification");
+    if (!melt && file.has("drying.solidification"))
+        file.mistake("drying.solidification", "has no meaning without spray.melting_point");
+    for (auto const* name : {"deposit", "stages", "equilibrium_moisture", "critical_moisture", "film_coverage"})
+        if (auto const key = std::string("drying.") + name; melt && file.has(key))
+            file.mistake(key, "has no meaning for a melt");
     bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
     drying.critical_moisture =
         file.quantity("drying.critical_moisture", Dimension::one, 0.0,
@@ -231,7 +272,7 @@ void read_process(io::CaseFile& file, Case& data)
         file.quantity("drying.equilibrium_moisture", Dimension::one, drying.equilibrium_moisture,
                       "kg water per kg solids that stay in the layer", io::not_negative);
     double const feed = (1 - data.spray.solids_fraction) / data.spray.solids_fraction;
-    if (data.spray.present && drying.equilibrium_moisture >= feed)
+    if (data.spray.present && !melt && drying.equilibrium_moisture >= feed)
         file.mistake("drying.equilibrium_moisture", fmt::format("is not below the moisture of the feed, {:.4g}", feed));
     if (drying.critical_moisture > 0 && drying.critical_moisture <= drying.equilibrium_moisture)
         file.mistake("drying.critical_moisture", "is not above drying.equilibrium_moisture");

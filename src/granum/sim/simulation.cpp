@@ -215,6 +215,8 @@ std::array<double, 3> Simulation::stocks() const
         stock[0] += granules_.layer_mass[row] + granules_.solute[row];
         stock[1] += granules_.water[row];
         stock[2] += granules_.enthalpy[row];
+        if (deposits_)
+            for (auto const& deposit : deposits_->on(granules_.id[row])) stock[2] += deposit.heat;
     }
     for (auto const& droplet : droplets_) {
         stock[0] += droplet.solids();

@@ -133,13 +133,16 @@ std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit, std::ui
     bool const may_splash = !dry && striking.splashes < most_splashes;
     double const share = may_splash ? flight_.splash.share(impact.mundo(), random.uniform()) : 0;
     auto staying = striking;
-    staying.water *= 1 - share, staying.solute *= 1 - share;
+    staying.water *= 1 - share, staying.solute *= 1 - share, staying.molten *= 1 - share;
+    // The granule gets what the melt is worth when solid at its melting point; the rest comes as it solidifies.
+    double const heat = liquid.melt() ? staying.heat_until_solid(liquid) : 0;
     drying::Arrival const arrival{.weight = staying.weight,
                                   .water = staying.water,
                                   .solute = staying.solute,
                                   .diameter = striking.diameter(liquid),
                                   .temperature = staying.temperature,
-                                  .enthalpy = staying.enthalpy(liquid),
+                                  .enthalpy = staying.enthalpy(liquid) - heat,
+                                  .heat = heat,
                                   .age = staying.age,
                                   .path = staying.path,
                                   .position = staying.position,
@@ -166,7 +169,8 @@ std::optional<spray::Droplet> Simulation::receive(spray::Hit const& hit, std::ui
     auto rest = striking;
     rest.id += std::uint64_t{++rest.splashes} << 56;
     rest.weight *= flight_.splash.droplets;
-    rest.water *= share / flight_.splash.droplets, rest.solute *= share / flight_.splash.droplets;
+    for (double spray::Droplet::*part : {&spray::Droplet::water, &spray::Droplet::solute, &spray::Droplet::molten})
+        rest.*part *= share / flight_.splash.droplets;
     fly_on(rest);
     mine_.splashed += rest.solids();
     return rest;

@@ -1,4 +1,4 @@
-// A droplet parcel in flight: `weight` equal real droplets of solution or suspension.
+// A droplet parcel in flight: `weight` equal real droplets of solution, suspension or melt.
 #pragma once
 
 #include "granum/law/dispersion/turbulence.hpp"
@@ -25,6 +25,9 @@ struct Liquid
     double locking = 0;             //!< share of the volume at which solids at the surface lock; 0: they never do
     double solids_diffusivity = 0;  //!< of the solids in the liquid, m2/s; 0: as fast as the surface recedes
     double crust_diffusivity = 0;   //!< of vapour in the crust, m2/s; 0: as in free gas
+    double melting_point = 0;       //!< K, of a melt (whose solids fraction is 1); 0: no melt
+    double fusion_heat = 0;         //!< J/kg
+    bool melt() const { return melting_point > 0; }
     double feed_moisture() const { return (1 - solids_fraction) / solids_fraction; }
 };
 
@@ -34,6 +37,7 @@ struct Droplet
     Vec3 position, velocity;       //!< m, m/s
     double weight = 0;             //!< real droplets
     double water = 0, solute = 0;  //!< kg of one real droplet
+    double molten = 0;             //!< kg of the solute of one real droplet
     double temperature = 0;        //!< K, uniform
     double age = 0, path = 0;      //!< s, m
     double crust = 0;              //!< m, diameter at which its solids locked; 0: they have not
@@ -46,9 +50,10 @@ struct Droplet
     double liquid_water() const { return weight * water; }
     double mass() const { return weight * (water + solute); }
 
-    //! Has it dried to a grain, or has it a crust? Such a droplet sticks only where it falls on a wet spot.
+    //! Is it a grain, dried or solidified, or has it a crust? Such a droplet sticks only where it falls on a wet spot.
     bool dry(Liquid const& liquid, double end_moisture) const
     {
+        if (liquid.melt()) return molten < end_moisture * solute;
         return crust > 0 || water < end_moisture * liquid.feed_moisture() * solute;
     }
 
@@ -64,11 +69,18 @@ struct Droplet
         return std::cbrt(6 / math::pi * (volume > least ? volume : least));
     }
 
-    //! J of all real droplets, zero at 0 degC.
+    //! J of all real droplets of a melt that must go until they are solid and no warmer than their melting point.
+    double heat_until_solid(Liquid const& liquid) const
+    {
+        double const above = temperature > liquid.melting_point ? temperature - liquid.melting_point : 0;
+        return weight * (solute * liquid.solids_heat_capacity * above + molten * liquid.fusion_heat);
+    }
+
+    //! J of all real droplets, zero at 0 degC, solid.
     double enthalpy(Liquid const& liquid) const
     {
-        return weight * (water * material::heat_capacity_water + solute * liquid.solids_heat_capacity) *
-               (temperature - math::zero_celsius);
+        double const capacity = water * material::heat_capacity_water + solute * liquid.solids_heat_capacity;
+        return weight * (capacity * (temperature - math::zero_celsius) + molten * liquid.fusion_heat);
     }
 };
 }

@@ -109,9 +109,35 @@ void lose(Losses& losses, Droplet const& droplet, Liquid const& liquid)
 }
 }
 
+namespace
+{
+//! A melt between solid and liquid keeps its melting point; below and above it relaxes towards the gas and stops there.
+Given cool(Droplet& droplet, FlightSettings const& settings, Seen const& seen, double slip, double dt)
+{
+    Liquid const& liquid = settings.liquid;
+    double const before = droplet.enthalpy(liquid), melting = liquid.melting_point;
+    law::droplet::Air const gas{seen.temperature, seen.vapour_fraction, settings.pressure};
+    auto const heat_at = [&](double temperature) {
+        return law::droplet::convection({droplet.diameter(liquid), temperature, 0, slip}, gas);
+    };
+    double const heat = heat_at(droplet.temperature);
+    bool const solid = droplet.molten <= 0, liquefied = droplet.molten >= droplet.solute;
+    if (droplet.temperature == melting && !(solid && heat < 0) && !(liquefied && heat > 0)) {
+        droplet.molten = std::clamp(droplet.molten + heat * dt / liquid.fusion_heat, 0.0, droplet.solute);
+    } else {
+        double const capacity = droplet.solute * liquid.solids_heat_capacity;
+        double const slope = std::min(0.0, (heat_at(droplet.temperature + 0.05) - heat) / 0.05);
+        double const next = droplet.temperature + heat * dt / (capacity - slope * dt);
+        droplet.temperature = solid ? std::min(next, melting) : std::max(next, melting);
+    }
+    return {.vapour = 0, .enthalpy = before - droplet.enthalpy(liquid), .momentum = {}};
+}
+}
+
 Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& seen, double slip, double dt)
 {
     Liquid const& liquid = settings.liquid;
+    if (liquid.melt()) return cool(droplet, settings, seen, slip, dt);
     double const before = droplet.enthalpy(liquid);
     double const moisture = droplet.water / droplet.solute;
     double const activity =

@@ -97,6 +97,7 @@ struct FlightSettings
 void fly(std::vector<Droplet>& droplets, FlightSettings const& settings, geometry::Chamber const& chamber,
          Surroundings& around, double dt, std::uint32_t step, Outcome& outcome);
 
-//! Evaporation and heating of one droplet parcel for `dt` in still-held air; `slip` in m/s. Returns what the gas got.
+//! Evaporation and heating (of a melt: solidification) of one droplet parcel for `dt` in still-held air; `slip` in m/s.
+//! Returns what the gas got.
 Given evaporate(Droplet& droplet, FlightSettings const& settings, Seen const& seen, double slip, double dt);
 }

@@ -78,6 +78,7 @@ std::vector<Droplet> Nozzle::emit(double now, double dt, Liquid const& liquid, s
         double const mass = liquid.density * math::pi / 6 * std::pow(diameter(random), 3);
         droplet.solute = mass * liquid.solids_fraction;
         droplet.water = mass - droplet.solute;
+        if (liquid.melt()) droplet.molten = droplet.solute;
         droplet.weight = parcel_mass / mass;
         droplet.temperature = droplet_temperature;
         droplet.position = position;

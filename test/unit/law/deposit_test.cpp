@@ -1,6 +1,7 @@
 // Drying of deposits and growth of the layer they leave.
 #include "granum/law/deposit/all.hpp"
 #include "granum/law/deposit/rates.hpp"
+#include "granum/law/deposit/solidification.hpp"
 #include "granum/law/heat/ranz_marshall.hpp"
 #include "granum/law/layer/growth.hpp"
 #include "granum/law/wetting/footprint.hpp"
@@ -181,5 +182,18 @@ TEST(LayerGrowth, in_proportion_to_surface_thickens_every_size_alike)
                 ++compared;
             }
     EXPECT_EQ(compared, 4);
+}
+
+// By hand: 300 W/m2/K over 6e-9 m2 and 80 K; a disc of 40 um on 0.5 W/m/K, 60 K colder: 4 x 0.5 x 40e-6 x 60.
+TEST(Solidification, passes_heat_to_the_gas_and_into_the_granule)
+{
+    deposit::MeltCap const cap{.base_radius = 40e-6,
+                               .area = 6e-9,
+                               .heat_transfer = 300,
+                               .conductivity = 0.5,
+                               .above_gas = 80,
+                               .above_granule = 60};
+    EXPECT_NEAR(deposit::ToGas{}(cap), 1.44e-4, 1e-12);
+    EXPECT_NEAR(deposit::ToGasAndGranule{}(cap), 1.44e-4 + 4.8e-3, 1e-12);
 }
 }

@@ -33,6 +33,8 @@ std::map<std::string, Expected> const keys{
     {"heat_capacity", {Dimension::heat_capacity, 300, 4200}},
     {"youngs_modulus", {Dimension::pressure, 1e8, 1e12}},
     {"solids_fraction", {Dimension::one, 0, 0.9}},
+    {"melting_point", {Dimension::temperature, 300, 700}},
+    {"fusion_heat", {Dimension::specific_energy, 5e4, 5e5}},
     {"solubility", {Dimension::one, 0, 5}},
     {"dissociation", {Dimension::one, 1, 4}},
     {"poisson_ratio", {Dimension::one, 0, 0.5}},

@@ -129,4 +129,22 @@ TEST(Balance, flags_over_wetting)
     EXPECT_TRUE(balance(data).overwetted());
     EXPECT_LT(balance(data).eta, 0);
 }
+
+// By hand: dry air of 0.0333333 kg/s enters with 30 degC and no vapour; 3.6 kg/h of melt bring 1500 x 140 + 224000 J/kg
+// above 0 degC, and leave as solid as warm as the air.
+TEST(Balance, of_a_melt_gives_its_heat_of_fusion_to_the_air)
+{
+    auto data = lab();
+    data.gas.inlets.front().dry_mass_flow = 0.0333333, data.gas.inlets.front().humidity = 0;
+    data.gas.inlets.front().velocity = 0, data.gas.inlets.front().temperature = 303.15;
+    data.granules.heat_capacity = 1500;
+    data.spray.nozzles.clear();
+    data.spray.rate = 1e-3, data.spray.solids_fraction = 1, data.spray.temperature = 413.15;
+    data.spray.melting_point = 405.85, data.spray.fusion_heat = 224e3;
+    auto const b = balance(data);
+    double const air = 0.0333333 * material::heat_capacity_air;
+    EXPECT_NEAR(b.outlet_temperature - 273.15, (air * 30 + 1e-3 * (1500 * 140 + 224e3)) / (air + 1e-3 * 1500), 1e-9);
+    EXPECT_EQ(b.outlet_humidity, 0);
+    EXPECT_NEAR(b.eta, 1, 1e-12);
+}
 }

@@ -122,4 +122,45 @@ TEST(SprayCase, refuses_what_would_leave_nothing_to_dry)
     refused("atomisation = \"lorenzetto-lefebvre\"\n", "air = \"1 kg/h\"\nbore = \"1 mm\"\nair_velocity = \"30 m/s\"\n",
             "nothing tears the liquid");
 }
+
+std::string molten(std::string const& spray, std::string const& rest = "")
+{
+    auto text = with(spray, rest);
+    auto const replace = [&](std::string const& old, std::string const& now) {
+        text.replace(text.find(old), old.size(), now);
+    };
+    replace("liquid = \"sodium-benzoate-30\"\n", "liquid = \"urea-melt\"\n");
+    replace("solids_fraction = \"30 %\"\n", "surface_tension = \"66 mN/m\"\ncontact_angle = \"30 deg\"\n");
+    replace("temperature = \"80 degC\"", "temperature = \"40 degC\"");
+    return text;
+}
+
+TEST(SprayCase, of_a_melt_has_no_water)
+{
+    auto const data = scene::case_of(molten("conductivity = \"0.5 W/m/K\"\ntemperature = \"140 degC\"\n"));
+    EXPECT_EQ(data.spray.solids_fraction, 1);
+    EXPECT_NEAR(data.spray.melting_point, 405.85, 1e-9);
+    EXPECT_NEAR(data.spray.fusion_heat, 224e3, 1e-6);
+    EXPECT_EQ(data.spray.locking, 0);
+    EXPECT_TRUE(sim::spray_liquid(data).melt());
+}
+
+TEST(SprayCase, of_a_melt_refuses_what_only_a_solution_has)
+{
+    std::string const good = "conductivity = \"0.5 W/m/K\"\n";
+    auto const refused = [](std::string const& text, char const* why) {
+        auto const what = mistakes_of(text);
+        EXPECT_NE(what.find(why), std::string::npos) << text << what;
+    };
+    refused(molten(""), "spray.conductivity");
+    refused(molten(good + "solids_fraction = 0.9\n"), "spray.solids_fraction");
+    refused(molten(good + "temperature = \"100 degC\"\n"), "spray.temperature");
+    refused(molten(good + "solubility = 0.5\n"), "spray.solubility");
+    refused(molten(good, "[drying]\nequilibrium_moisture = 0.1\n"), "drying.equilibrium_moisture");
+    refused(with("fusion_heat = \"224 kJ/kg\"\n", ""), "has no meaning without spray.melting_point");
+    refused(with("", "[drying]\nsolidification = \"gas\"\n"), "has no meaning without spray.melting_point");
+    auto hot = molten(good);
+    hot.replace(hot.find("temperature = \"40 degC\""), 23, "temperature = \"150 degC\"");
+    refused(hot, "nothing would solidify");
+}
 }

@@ -424,4 +424,65 @@ TEST(Droplets, are_spread_the_same_in_any_order)
     for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(one.droplets[n].position, other.droplets[19 - n].position);
     EXPECT_NE(one.droplets[0].position, one.droplets[1].position);
 }
+
+Liquid urea()
+{
+    Liquid liquid;
+    liquid.density = 1220, liquid.solids_density = 1335, liquid.solids_fraction = 1;
+    liquid.solids_heat_capacity = 1500;
+    liquid.melting_point = 132.7 + zero_celsius;
+    liquid.fusion_heat = 224e3;
+    return liquid;
+}
+
+// In still air the droplet loses 2 pi d k (T - T_gas): held at the melting point until the heat of fusion has gone.
+TEST(MoltenDroplet, keeps_its_melting_point_while_it_solidifies)
+{
+    FlightSettings settings;
+    settings.liquid = urea();
+    auto const air = gas(30, 0.005);
+    double const diameter = 60e-6;
+    Droplet drop = droplet(settings.liquid, diameter, 140, {}, {}, 1000);
+    drop.molten = drop.solute;
+    double const before = drop.enthalpy(settings.liquid);
+    double given = 0, mushy = 0, last = drop.temperature;
+    double const dt = 1e-5;
+    for (int n = 0; n < 200000; ++n) {
+        auto const out = evaporate(drop, settings, air, 0, dt);
+        given += out.enthalpy;
+        EXPECT_EQ(out.vapour, 0);
+        ASSERT_LE(drop.temperature, last);
+        last = drop.temperature;
+        if (drop.temperature == settings.liquid.melting_point && drop.molten > 0) mushy += dt;
+        if (drop.molten == 0 && drop.temperature < air.temperature + 0.01) break;
+    }
+    EXPECT_NEAR(given, before - drop.enthalpy(settings.liquid), 1e-12 * before);
+    EXPECT_TRUE(drop.dry(settings.liquid, 0.01));
+    EXPECT_NEAR(drop.temperature, air.temperature, 0.02);
+    double const film = settings.liquid.melting_point + (air.temperature - settings.liquid.melting_point) / 3;
+    double const loss = 2 * math::pi * diameter * material::conductivity(film) * (132.7 - 30);
+    EXPECT_NEAR(mushy, drop.solute * 224e3 / loss, 0.01 * mushy);
+}
+
+TEST(MoltenDroplet, melts_again_in_gas_that_is_hotter)
+{
+    FlightSettings settings;
+    settings.liquid = urea();
+    Droplet drop = droplet(settings.liquid, 60e-6, 30, {});
+    EXPECT_TRUE(drop.dry(settings.liquid, 0.01));
+    auto const air = gas(200, 0.005);
+    for (int n = 0; n < 100000; ++n) evaporate(drop, settings, air, 0, 1e-5);
+    EXPECT_EQ(drop.molten, drop.solute);
+    EXPECT_NEAR(drop.temperature, air.temperature, 0.01);
+    EXPECT_FALSE(drop.dry(settings.liquid, 0.01));
+}
+
+TEST(MoltenDroplet, holds_back_what_it_has_to_give_until_it_is_solid)
+{
+    auto const liquid = urea();
+    Droplet drop = droplet(liquid, 60e-6, 140, {}, {}, 10);
+    drop.molten = drop.solute;
+    EXPECT_NEAR(drop.heat_until_solid(liquid), 10 * drop.solute * (1500 * 7.3 + 224e3), 1e-15);
+    EXPECT_NEAR(drop.enthalpy(liquid) - drop.heat_until_solid(liquid), 10 * drop.solute * 1500 * 132.7, 1e-15);
+}
 }

@@ -59,6 +59,17 @@ Rates evaporation(Drop const& drop, Air const& air)
     return {mass, heat, sherwood * film.diffusivity};
 }
 
+double convection(Drop const& drop, Air const& air)
+{
+    double const temperature = drop.temperature + (air.temperature - drop.temperature) / 3;
+    double const viscosity = material::viscosity(temperature), conductivity = material::conductivity(temperature);
+    double const density = material::density(air.pressure, temperature, air.vapour_fraction);
+    double const prandtl = viscosity * material::heat_capacity(air.vapour_fraction) / conductivity;
+    double const reynolds = density * std::abs(drop.slip) * drop.diameter / viscosity;
+    double const nusselt = heat::RanzMarshall{}({0, reynolds, prandtl});
+    return math::pi * drop.diameter * conductivity * nusselt * (air.temperature - drop.temperature);
+}
+
 double equilibrium_temperature(Drop drop, Air const& air)
 {
     auto const surplus = [&](double temperature) {

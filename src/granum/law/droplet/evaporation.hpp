@@ -31,6 +31,9 @@ struct Rates
 //! Rates of `drop` in `air`. Without a heat of evaporation: the drop's energy falls by mass * L.
 Rates evaporation(Drop const& drop, Air const& air);
 
+//! W into a drop that does not evaporate, by convection; its water activity is not used.
+double convection(Drop const& drop, Air const& air);
+
 //! K at which convection supplies just the heat of evaporation (diffusive wet bulb); `drop.temperature` is not used.
 double equilibrium_temperature(Drop drop, Air const& air);
 
