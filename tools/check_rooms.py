@@ -18,6 +18,7 @@ EXTERNAL = {
     r"xxhash\.h": {"io"},
     r"zlib\.h": {"io", "report", "test"},
     r"png\.h": {"report", "test"},
+    r"Eigen/": {"map", "test"},
     r"nlohmann/": {"io", "report", "sim", "app", "test"},
     r"_?HYPRE|krylov\.h": {"solve"},
     r"hwy/": {"dem"},

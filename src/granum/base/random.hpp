@@ -35,7 +35,8 @@ enum class Purpose : std::uint32_t
     test,
     agitation,
     dispersion,
-    surface
+    surface,
+    bootstrap
 };
 
 //! A stream of numbers for one (seed, purpose, id, step).
