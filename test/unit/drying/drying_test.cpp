@@ -1,5 +1,6 @@
 // Deposits dry at the law's rate, nothing of them is lost on the way into the layer, and the event says how it went.
-#include "granum/drying/drying.hpp"
+#include "bed.hpp"
+
 #include "granum/base/random.hpp"
 #include "granum/drying/impact.hpp"
 #include "granum/law/heat/ranz_marshall.hpp"
@@ -16,60 +17,7 @@ namespace
 using namespace granum;
 using namespace granum::drying;
 using math::zero_celsius;
-
-//! Granules of 0.6 mm, 1445 kg/m3, with what they see.
-struct Bed
-{
-    particle::Store granules;
-    Deposits deposits;
-    Settings settings;
-    std::vector<double> temperature, vapour, potential, slip, sherwood, evaporated;
-    std::vector<Event> events;
-    double now = 0;
-
-    explicit Bed(std::size_t rows, double count = 1) : deposits(rows)
-    {
-        settings.combine = law::deposit::Combined{};
-        settings.porosity = [](double, double, double) { return 0.4; };
-        granules.resize(rows);
-        granules.owned = rows;
-        double const d = 0.6e-3;
-        for (std::size_t row = 0; row < rows; ++row) {
-            granules.id[row] = rows - 1 - row;  // rows are not identities
-            granules.count[row] = count;
-            granules.core_diameter[row] = d;
-            granules.core_mass[row] = count * 1445 * math::pi / 6 * d * d * d;
-            granules.temperature[row] = 28.734 + zero_celsius;
-            resize_granule(granules, row);
-        }
-        temperature.assign(rows, 60 + zero_celsius);
-        vapour.assign(rows, material::fraction(0.012));
-        potential.assign(rows, 0.6);
-        slip.assign(rows, 1.5);
-        sherwood.assign(rows, 5.731);
-    }
-
-    void advance(double dt)
-    {
-        now += dt;
-        Drying(settings).advance(granules, deposits, {temperature, vapour, potential, slip, sherwood}, dt, now,
-                                 evaporated, events);
-    }
-
-    //! `weight` caps of `water` and `solute` kg each on the granule of `row`.
-    void wet(std::size_t row, double weight, double water, double solute, double base_radius)
-    {
-        Deposit fresh;
-        fresh.weight = weight;
-        fresh.water = fresh.water_at_impact = weight * water;
-        fresh.solute = weight * solute;
-        fresh.base_radius = base_radius;
-        fresh.record.t_deposit = now;
-        fresh.record.moisture_at_impact = water / solute;
-        deposits.on(granules.id[row]).push_back(fresh);
-        granules.water[row] += fresh.water, granules.solute[row] += fresh.solute;
-    }
-};
+using test::Bed;
 
 //! physics.md 5.2: a droplet of 40 um of 30 % suspension of 1100 kg/m3 on a granule of 0.6 mm at the wet bulb of air of
 //! 60 degC and 12 g/kg, contact angle 40 degrees, all of the water evaporating at water activity 1.
@@ -533,75 +481,5 @@ TEST(Coverage, is_the_share_of_the_surface_under_the_deposits_and_at_most_all)
     EXPECT_NEAR(Drying::coverage(bed.deposits.on(0), 10, 0.6e-3), 4 * std::pow(30.0 / 600, 2), 1e-12);
     bed.wet(0, 1e6, 1e-12, 1e-12, 30e-6);
     EXPECT_EQ(Drying::coverage(bed.deposits.on(0), 10, 0.6e-3), 1);
-}
-
-//! A bed whose deposits are of molten urea (recalled: 132.7 degC, 224 kJ/kg).
-struct MoltenBed : Bed
-{
-    explicit MoltenBed(double celsius) : Bed(1, 10)
-    {
-        settings.liquid = {.density = 1220,
-                           .solids_density = 1335,
-                           .solubility = 0,
-                           .feed_moisture = 0,
-                           .melting_point = 132.7 + zero_celsius,
-                           .conductivity = 0.5};
-        granules.temperature[0] = temperature[0] = celsius + zero_celsius;
-    }
-    void splat(double weight, double melt, double heat, double base_radius)
-    {
-        wet(0, weight, 0, melt, base_radius);
-        deposits.on(0).back().heat = weight * heat;
-    }
-};
-
-TEST(Melt, is_solid_when_its_heat_of_fusion_has_gone_to_the_granule)
-{
-    double const melt = 4.1e-11, heat = melt * 224e3, radius = 40e-6;  // J of one cap
-    MoltenBed bed(80);
-    bed.settings.solidification = law::deposit::ToGasAndGranule{};
-    double const before = bed.granules.enthalpy[0], mass = bed.granules.mass[0];
-    bed.splat(30, melt, heat, radius);
-    resize_granule(bed.granules, 0);
-    double const dt = 1e-4;
-    while (bed.events.empty() && bed.now < 1) bed.advance(dt);
-
-    ASSERT_EQ(bed.events.size(), 1u);
-    auto const& event = bed.events.front();
-    // Through the base 4 k a dT; what the gas takes makes it faster by less than a tenth.
-    double const through_base = heat / (4 * 0.5 * radius * 52.7);
-    EXPECT_LT(event.drying_time, through_base);
-    EXPECT_GT(event.drying_time, 0.9 * through_base);
-    EXPECT_NEAR(bed.granules.enthalpy[0] - before, 30 * heat, 1e-12 * 30 * heat);
-    EXPECT_NEAR(bed.granules.layer_mass[0], 30 * melt, 1e-24);
-    EXPECT_NEAR(bed.granules.mass[0], mass + 30 * melt, 1e-20);
-    EXPECT_EQ(bed.granules.solute[0], 0);
-    EXPECT_EQ(bed.evaporated[0], 0);
-    EXPECT_EQ(event.mean_flux, 0);
-    EXPECT_NEAR(event.mean_granule_temperature, 80 + zero_celsius, 1e-9);
-}
-
-// h = Sh (Pr / Sc)^(1/3) k / d with air of 106 degC by hand: k 0.0321 W/m/K, Pr 0.70, Sc 0.59: h = 325 W/m2/K.
-TEST(Melt, through_the_gas_alone_takes_far_longer)
-{
-    double const melt = 4.1e-11, heat = melt * 224e3, radius = 40e-6;
-    MoltenBed bed(80);
-    bed.settings.solidification = law::deposit::ToGas{};
-    bed.splat(1, melt, heat, radius);
-    while (bed.events.empty() && bed.now < 10) bed.advance(1e-3);
-    ASSERT_EQ(bed.events.size(), 1u);
-    double const area = law::wetting::cap_area(radius, law::wetting::pinned_angle(melt / 1335, radius));
-    EXPECT_NEAR(bed.events.front().drying_time, heat / (325 * area * 52.7), 0.05 * bed.events.front().drying_time);
-}
-
-TEST(Melt, does_not_solidify_on_a_granule_and_in_gas_as_hot_as_itself)
-{
-    MoltenBed bed(140);
-    bed.splat(1, 4.1e-11, 9e-6, 40e-6);
-    double const before = bed.granules.enthalpy[0];
-    for (int n = 0; n < 100; ++n) bed.advance(1e-2);
-    EXPECT_TRUE(bed.events.empty());
-    EXPECT_EQ(bed.deposits.on(0).front().heat, 9e-6);
-    EXPECT_EQ(bed.granules.enthalpy[0], before);
 }
 }
