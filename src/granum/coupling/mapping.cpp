@@ -152,7 +152,10 @@ void Mapping::place_cells(particle::Store const& granules)
             high[d] = std::max(high[d], granules.position[row][d]);
         }
     std::array<std::size_t, 3> axes{0, 1, 2};
-    Vec3 const extent = high - low;
+    // Beds as deep as they are wide must not change sides with a granule.
+    Vec3 extent = high - low;
+    double const unit = 0.02 * std::max({extent.x, extent.y, extent.z, 1e-300});
+    for (std::size_t d = 0; d < 3; ++d) extent[d] = std::round(extent[d] / unit);
     std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return extent[a] < extent[b]; });
     if (axes == fastest_ && !place_.empty()) return;
     fastest_ = axes;
