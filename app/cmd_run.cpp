@@ -223,6 +223,19 @@ int run(Wish const& asked)
 }
 }
 
+int run_case(std::string const& file, std::string const& folder, double until, int ranks)
+{
+    Wish const wish{
+        .path = file, .folder = folder, .until = fmt::format("{:.9g} s", until), .ranks = ranks, .quiet = true};
+    auto const resolved = sim::read_case(file);
+    auto const place = choose_place(wish, resolved);
+    // Always in processes of their own, one rank too: MPI starts only once in a process.
+    int const status = launch(wish, place, choose_ranks(wish, resolved));
+    if (status == static_cast<int>(base::Exit::interrupted) && !ended(place.folder)) return status;
+    report(wish, place.folder);
+    return status;
+}
+
 void add_run(CLI::App& program, Action& action)
 {
     auto* verb = program.add_subcommand("run", "simulate a case");

@@ -80,6 +80,9 @@ int main(int argc, char** argv)
     app::add_list(program, action);
     app::add_new(program, action);
     app::add_report(program, action);
+    app::add_map(program, action);
+    app::add_scale(program, action);
+    app::add_study(program, action);
     if (app::is_unknown_verb(program, argc, argv)) return app::status(base::Exit::usage);
     try {
         program.parse(argc, argv);

@@ -18,4 +18,11 @@ void add_balance(CLI::App& program, Action& action);
 void add_list(CLI::App& program, Action& action);
 void add_new(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
+void add_map(CLI::App& program, Action& action);
+void add_scale(CLI::App& program, Action& action);
+void add_study(CLI::App& program, Action& action);
+
+//! `granum run CASE -o FOLDER -n RANKS --until UNTIL --quiet`, in processes of its own; its exit status. Throws as
+//! launch_ranks.
+int run_case(std::string const& file, std::string const& folder, double until, int ranks);
 }

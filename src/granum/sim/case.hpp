@@ -277,6 +277,7 @@ struct NozzleCase
     double air_humidity = 0;          //!< kg/kg dry
     double air_velocity = 250;        //!< m/s at the exit: momentum = mass flow * velocity
     double air_pressure = 0;          //!< Pa, absolute, before the mouth; 0: not told
+    double air_mouth = 0;             //!< m2, with air_pressure
     double bore = 0;                  //!< m, diameter of the liquid's mouth; 0: not told
     double droplet_median = 0;        //!< m, of its own droplets; 0: that of the spray
     double droplet_velocity = 30;     //!< m/s at the exit

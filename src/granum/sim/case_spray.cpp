@@ -36,6 +36,7 @@ void read_pressed_air(io::CaseFile& file, std::string const& key, double ambient
     nozzle.air_mass_flow = flow / (1 + nozzle.air_humidity);
     nozzle.air_velocity = orifice.thrust() / flow;
     nozzle.air_pressure = orifice.pressure;
+    nozzle.air_mouth = orifice.area;
     file.derived(key + "air", fmt::format("{:.4g} kg/h", 3600 * nozzle.air_mass_flow),
                  orifice.choked() ? "as fast as sound at the mouth" : "slower than sound at the mouth");
     file.derived(key + "air_velocity", fmt::format("{:.4g} m/s", nozzle.air_velocity),

@@ -223,13 +223,17 @@ TEST(SprayedBed, accounts_for_what_splashes_and_for_dust_that_does_not_stick)
         auto const t = simulation->totals();
         EXPECT_EQ(t.splashed > 0, splash);
         EXPECT_GT(t.deposited, 0);
-        if (!splash) EXPECT_GT(t.rebounds, 10);
+        if (!splash) {
+            EXPECT_GT(t.rebounds, 10);
+        }
         EXPECT_NEAR(t.deposited + t.walls + t.overspray + t.in_flight, t.solids, 1e-12 * t.solids);
         double shares = 0, dry = 0, events = 0;
         for (auto const& event : simulation->take_events())
             if (event.initial == 0) shares += event.splashed, dry += event.dry, ++events;
         ASSERT_GT(events, 10);
-        if (splash) EXPECT_NEAR(shares / events, 0.5, 0.2);  // some are the second droplet of one that has splashed
+        if (splash) {
+            EXPECT_NEAR(shares / events, 0.5, 0.2);  // some are the second droplet of one that has splashed
+        }
         EXPECT_LT(dry, splash ? 1 : events + 1);
         EXPECT_LT(simulation->ledgers().solids.relative_error(), 1e-9);
         EXPECT_LT(simulation->ledgers().water.relative_error(), 1e-9);

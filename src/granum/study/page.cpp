@@ -1,0 +1,220 @@
+// The table and the page of a campaign.
+#include "granum/report/page.hpp"
+#include "granum/io/text_file.hpp"
+#include "granum/map/lab.hpp"
+#include "granum/report/chart.hpp"
+#include "granum/report/html.hpp"
+#include "granum/report/sections.hpp"
+#include "granum/study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+namespace granum::study
+{
+namespace
+{
+using report::escape;
+using report::number;
+
+constexpr std::array colours{"#1b5e8c", "#c1440e", "#3a7d44", "#7a4f9a", "#8a6d00",
+                             "#00707a", "#a02c5d", "#555555", "#b06a00"};
+
+struct Mean
+{
+    double value = 0, error = 0;
+};
+
+//! Mean of a variable over the layer, with its error from ten blocks of time.
+Mean mean_of(map::Deposits const& deposits, std::string const& name)
+{
+    constexpr std::size_t blocks = 10;
+    auto const& values = deposits.of(name);
+    if (values.empty()) return {};
+    auto const [first, last] = std::minmax_element(deposits.time.begin(), deposits.time.end());
+    double const width = std::max(*last - *first, 1e-300);
+    std::array<double, blocks> solids{}, sum{};
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        auto const at = std::min(blocks - 1, static_cast<std::size_t>(blocks * (deposits.time[row] - *first) / width));
+        solids[at] += deposits.solids[row], sum[at] += deposits.solids[row] * values[row];
+    }
+    double total = 0, weighted = 0, square = 0;
+    for (std::size_t b = 0; b < blocks; ++b) total += solids[b], weighted += sum[b];
+    Mean out{weighted / total, 0};
+    for (std::size_t b = 0; b < blocks; ++b) square += std::pow(sum[b] - out.value * solids[b], 2);
+    out.error = std::sqrt(square * blocks / (blocks - 1)) / total;
+    return out;
+}
+
+struct Column
+{
+    char const *name, *unit, *title;
+    Mean (*of)(Outcome const&);
+};
+
+Mean exactly(double value)
+{
+    return {value, 0};
+}
+
+template <double Outcome::*Member>
+Mean member(Outcome const& one)
+{
+    return exactly(one.*Member);
+}
+
+constexpr std::array columns{
+    Column{"window_from", "s", "window from", [](Outcome const& o) { return exactly(o.deposits.window.from); }},
+    Column{"window_to", "s", "to", [](Outcome const& o) { return exactly(o.deposits.window.to); }},
+    Column{"log10_drying_time", "1", "log10 of drying time (s)",
+           [](Outcome const& o) {
+               return Mean{o.deposits.window.mean, o.deposits.window.error};
+           }},
+    Column{"moisture_at_impact", "kg/kg", "moisture at impact",
+           [](Outcome const& o) { return mean_of(o.deposits.deposits, "moisture_at_impact"); }},
+    Column{"drying_potential", "1", "local potential at impact",
+           [](Outcome const& o) { return mean_of(o.deposits.deposits, "drying_potential"); }},
+    Column{"coverage", "1", "coverage at impact",
+           [](Outcome const& o) { return mean_of(o.deposits.deposits, "coverage"); }},
+    Column{"eta", "1", "eta", member<&Outcome::eta>},
+    Column{"balance_eta", "1", "of the balance", member<&Outcome::balance_eta>},
+    Column{"outlet_temperature", "K", "outlet temperature", member<&Outcome::outlet_temperature>},
+    Column{"balance_temperature", "K", "of the balance", member<&Outcome::balance_temperature>},
+    Column{"outlet_humidity", "kg/kg", "outlet humidity", member<&Outcome::outlet_humidity>},
+    Column{"balance_humidity", "kg/kg", "of the balance", member<&Outcome::balance_humidity>},
+    Column{"solids_error", "1", "solids ledger", member<&Outcome::solids_error>},
+    Column{"water_error", "1", "water ledger", member<&Outcome::water_error>},
+    Column{"wall_time", "s", "wall time", member<&Outcome::wall>},
+};
+
+std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Prediction> const& predictions)
+{
+    std::string names = "point", units = "1", body;
+    for (auto const& column : columns) {
+        names += fmt::format(",{0},{0}_error", column.name);
+        units += fmt::format(",{0},{0}", column.unit);
+    }
+    if (!predictions.empty()) names += ",predicted,predicted_low,predicted_high,extrapolation", units += ",1,1,1,1";
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+        body += outcomes[k].point.name;
+        for (auto const& column : columns) {
+            auto const mean = column.of(outcomes[k]);
+            body += fmt::format(",{:.8g},{:.3g}", mean.value, mean.error);
+        }
+        if (!predictions.empty()) {
+            auto const& p = predictions[k];
+            body += fmt::format(",{:.8g},{:.8g},{:.8g},{:.4g}", p.mean, p.low, p.high, p.extrapolation);
+        }
+        body += "\n";
+    }
+    return names + "\n" + units + "\n" + body;
+}
+
+std::string table(std::vector<Outcome> const& outcomes)
+{
+    std::string out = "<table><tr><th>point</th>";
+    for (auto const& column : columns) out += fmt::format("<th class=\"num\">{}</th>", escape(column.title));
+    out += "</tr>\n";
+    for (auto const& one : outcomes) {
+        out += fmt::format("<tr><td>{}{}</td>", escape(one.point.name), one.enough ? "" : " (short)");
+        for (auto const& column : columns) {
+            auto const mean = column.of(one);
+            out += "<td class=\"num\">" + number(mean.value) + (mean.error > 0 ? " ± " + number(mean.error, 1) : "") +
+                   "</td>";
+        }
+        out += "</tr>\n";
+    }
+    return out + "</table>\n";
+}
+
+//! Distributions of one variable, point beside point: share of the layer in 24 bins over all of them.
+std::string distributions(std::vector<Outcome> const& outcomes, std::string const& name, bool logarithmic,
+                          std::string const& label)
+{
+    double low = 1e300, high = -1e300;
+    auto const coordinate = [&](double value) { return logarithmic ? std::log10(value) : value; };
+    for (auto const& one : outcomes)
+        for (double const value : one.deposits.deposits.of(name))
+            if (double const x = coordinate(value); std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+    if (!(low < high)) return "";
+    constexpr int bins = 24;
+    report::CurveChart chart{.x = {label, logarithmic}, .y = {"share of the layer (%)"}};
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+        auto const& deposits = outcomes[k].deposits.deposits;
+        auto const& values = deposits.of(name);
+        std::array<double, bins> share{};
+        double total = 0;
+        for (std::size_t row = 0; row < values.size(); ++row) {
+            double const x = coordinate(values[row]);
+            if (!std::isfinite(x)) continue;
+            share[static_cast<std::size_t>(
+                std::clamp(static_cast<int>(bins * (x - low) / (high - low)), 0, bins - 1))] += deposits.solids[row];
+            total += deposits.solids[row];
+        }
+        report::Curve curve{.label = outcomes[k].point.name,
+                            .colour = colours[k % colours.size()],
+                            .stroke = k < colours.size() ? report::Stroke::solid : report::Stroke::dashed};
+        for (int b = 0; b < bins; ++b) {
+            double const x = low + (b + 0.5) * (high - low) / bins;
+            curve.x.push_back(logarithmic ? std::pow(10, x) : x);
+            curve.y.push_back(100 * share[static_cast<std::size_t>(b)] / total);
+        }
+        chart.curves.push_back(std::move(curve));
+    }
+    return report::svg(chart);
+}
+
+std::string predicted(map::Map const& map, std::vector<Outcome> const& outcomes,
+                      std::vector<map::Prediction> const& predictions)
+{
+    std::string out = fmt::format(
+        "<table class=\"narrow\"><tr><th>point</th><th class=\"num\">{}</th><th class=\"num\">95 % interval</th>"
+        "<th class=\"num\">extrapolation index</th></tr>\n",
+        escape(map.property));
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+        out += fmt::format(
+            "<tr><td>{}</td><td class=\"num\">{}</td><td class=\"num\">{} to {}</td><td "
+            "class=\"num\">{:.2f}{}</td></tr>\n",
+            escape(outcomes[k].point.name), number(predictions[k].mean), number(predictions[k].low),
+            number(predictions[k].high), predictions[k].extrapolation,
+            predictions[k].extrapolation > 0.3 ? " (beyond the lab)" : "");
+    return out + "</table>\n";
+}
+}
+
+void write(Study const& study, std::vector<Outcome> const& outcomes, std::string const& folder)
+{
+    namespace fs = std::filesystem;
+    std::vector<map::Prediction> predictions;
+    std::string more;
+    if (!study.map.empty()) {
+        auto const map = map::read_map(study.map);
+        for (auto const& one : outcomes)
+            predictions.push_back(
+                map::predict(map, {{map::features(map.known.axes, one.deposits.deposits), one.deposits.potential}}));
+        more = report::section("predicted", "Predicted " + map.property, predicted(map, outcomes, predictions));
+    }
+    std::string const charts =
+        report::figure(distributions(outcomes, "drying_time", true, "drying time (s)"),
+                       "How long deposits took to dry.") +
+        report::figure(distributions(outcomes, "moisture_at_impact", false, "water per solids at impact (kg/kg)"),
+                       "How wet droplets landed.") +
+        report::figure(distributions(outcomes, "drying_potential", false, "local drying potential at impact"),
+                       "Where they landed.") +
+        report::figure(distributions(outcomes, "granule_temperature", false, "granule temperature at impact (K)"),
+                       "On what they landed.");
+    std::string const body =
+        fmt::format("<p class=\"brand\">GRANUM</p>\n<h1>{}</h1>\n<p class=\"how\">{} operating points.</p>\n",
+                    escape(study.title), outcomes.size()) +
+        more +
+        report::section("points", "Operating points", "<div style=\"overflow-x:auto\">" + table(outcomes) + "</div>") +
+        report::section("distributions", "Conditions of the deposits", "<div class=\"charts\">" + charts + "</div>");
+    io::replace_text((fs::path(folder) / "study.csv").string(), csv(outcomes, predictions));
+    io::replace_text((fs::path(folder) / "study.html").string(),
+                     report::whole_page(study.title + " – Granum study", body));
+}
+}

@@ -1,0 +1,156 @@
+#include "granum/study/study.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/io/case_edit.hpp"
+#include "granum/io/case_file.hpp"
+#include "granum/io/text_file.hpp"
+#include "granum/sim/case_reader.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace granum::study
+{
+namespace
+{
+namespace fs = std::filesystem;
+using io::Dimension;
+
+constexpr double first_look = 1;  // s beyond the window, for the start to die away
+
+double number(nlohmann::json const& summary, std::initializer_list<char const*> path)
+{
+    auto const* here = &summary;
+    for (auto const* name : path) {
+        if (!here->is_object() || !here->contains(name)) return std::nan("");
+        here = &(*here)[name];
+    }
+    return here->is_number() ? here->get<double>() : std::nan("");
+}
+
+Outcome outcome_of(Point const& point, std::string const& folder)
+{
+    Outcome out{.point = point, .folder = folder};
+    out.deposits = map::read_deposits(folder);
+    auto const summary = nlohmann::json::parse(io::read_text((fs::path(folder) / "summary.json").string()));
+    out.simulated = number(summary, {"run", "simulated_s"});
+    out.wall = number(summary, {"run", "wall_s"});
+    out.eta = number(summary, {"result", "eta_global"});
+    out.outlet_temperature = number(summary, {"result", "outlet_temperature_K"});
+    out.outlet_humidity = number(summary, {"result", "outlet_humidity"});
+    out.balance_eta = number(summary, {"balance", "eta"});
+    out.balance_temperature = number(summary, {"balance", "outlet_temperature_K"});
+    out.balance_humidity = number(summary, {"balance", "outlet_humidity"});
+    out.solids_error = number(summary, {"ledger", "solids", "relative_error"});
+    out.water_error = number(summary, {"ledger", "water", "relative_error"});
+    return out;
+}
+}
+
+Study read_study(std::string const& path)
+{
+    io::CaseFile file(path);
+    Study study{.path = path};
+    file.integer("format", 1, "version of the format of studies", 1, 1);
+    study.title = file.words("title", fs::path(path).stem().string(), "for people");
+    file.section("window");
+    study.least = file.quantity("window.least", Dimension::time, study.least, "that the steady part of a run must last",
+                                io::positive);
+    study.most = file.quantity("window.most", Dimension::time, study.most, "that it may last", io::positive);
+    study.error = file.quantity("window.error", Dimension::one, study.error,
+                                "standard error of the mean of log10 of the drying time that ends a run", io::positive);
+    if (study.most < study.least) file.mistake("window.most", "is below window.least");
+    auto const map = file.words("map", "", "to predict the property of each point with");
+    if (!map.empty()) study.map = file.beside(map);
+    auto const common = file.words("case", "", "that all points are made of");
+    int const count = file.count("point");
+    std::set<std::string> names;
+    for (int k = 0; k < count; ++k) {
+        auto const key = fmt::format("point[{}].", k);
+        Point point{.key = key + "set"};
+        point.name = file.words(key + "name", std::nullopt, "of the point and of its run's folder");
+        auto const own = file.words(key + "case", common, "that it is made of, instead of the study's");
+        if (own.empty())
+            file.mistake(key + "case", "is missing, and the study has no case of its own");
+        else
+            point.base = file.beside(own);
+        file.know(key + "set");
+        bool const plain =
+            !point.name.empty() && std::all_of(point.name.begin(), point.name.end(), [](unsigned char c) {
+                return std::isalnum(c) || c == '-' || c == '_' || c == '.';
+            });
+        if (!plain && !file.wrong(key + "name"))
+            file.mistake(key + "name", "is not a name of a folder", {"letters, digits, - . and _"});
+        if (!names.insert(point.name).second) file.mistake(key + "name", "is there already");
+        study.points.push_back(std::move(point));
+    }
+    if (count == 0)
+        file.mistake("point", "is missing: a study has points", {"add [[point]] tables with a name and what they set"});
+    file.finish();
+    return study;
+}
+
+std::string case_of(Study const& study, Point const& point)
+{
+    io::CaseEdit edit(point.base);
+    edit.merge(study.path, point.key);
+    return edit.text(fmt::format("Point {} of {}, made by granum study from {}.", point.name,
+                                 fs::path(study.path).filename().string(), fs::path(point.base).filename().string()));
+}
+
+std::optional<double> next_end(Study const& study, map::Window const& window)
+{
+    double const length = window.to - window.from;
+    if (window.settled && length >= study.least && window.error <= study.error) return std::nullopt;
+    if (window.settled && length >= study.most) return std::nullopt;
+    double wanted = study.least;
+    // Errors fall with the root of the length; a tenth more, so that the next look is the last.
+    if (window.settled && window.error > study.error)
+        wanted = std::max(wanted, 1.1 * length * std::pow(window.error / study.error, 2));
+    // One that has not settled is given its length again.
+    double const end =
+        window.settled ? window.from + std::min(wanted, study.most) : window.to + std::max(study.least, length);
+    if (!window.settled && window.to > 2 * study.most) return std::nullopt;
+    return std::max(end, window.to + 0.2 * study.least);
+}
+
+std::vector<Outcome> run(Study const& study, std::string const& folder, Runner const& runner,
+                         std::function<void(std::string const&)> const& said)
+{
+    fs::create_directories(fs::path(folder) / "cases");
+    // All cases first: what is wrong with the last must not wait for the runs before it.
+    std::vector<std::string> files;
+    for (auto const& point : study.points) {
+        files.push_back((fs::path(folder) / "cases" / (point.name + ".toml")).string());
+        io::replace_text(files.back(), case_of(study, point));
+        sim::read_case(files.back());
+    }
+    std::vector<Outcome> out;
+    for (std::size_t k = 0; k < study.points.size(); ++k) {
+        auto const& point = study.points[k];
+        auto const place = (fs::path(folder) / point.name).string();
+        auto const done = [&] {
+            return fs::exists(fs::path(place) / "summary.json") && fs::exists(fs::path(place) / "events.h5");
+        };
+        std::optional<double> until = study.least + first_look;
+        if (done()) until = next_end(study, map::read_deposits(place).window);
+        while (until) {
+            said(fmt::format("{}: to {:.3g} s", point.name, *until));
+            int const status = runner(files[k], place, *until);
+            if (status == 130) return out;
+            if (status != 0) throw base::NumericsError(fmt::format("{}: granum run ended with {}", place, status));
+            until = next_end(study, map::read_deposits(place).window);
+        }
+        out.push_back(outcome_of(point, place));
+        auto const& window = out.back().deposits.window;
+        out.back().enough = window.settled && window.error <= study.error && window.to - window.from >= study.least;
+        said(fmt::format("{}: {:.3g} to {:.3g} s, log10 of the drying time {:.4f} +- {:.4f}{}", point.name, window.from,
+                         window.to, window.mean, window.error, out.back().enough ? "" : " (NOT as good as asked)"));
+    }
+    return out;
+}
+}

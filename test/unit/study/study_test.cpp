@@ -1,0 +1,118 @@
+// A campaign's points are the cases that its file says, each runs until its statistics are good enough, and what is
+// wrong is told.
+#include "granum/study/study.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/sim/case_reader.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+using namespace granum;
+using namespace granum::study;
+namespace fs = std::filesystem;
+
+struct Folder
+{
+    fs::path path = fs::temp_directory_path() / fmt::format("granum_study_test_{}", ::getpid());
+    Folder()
+    {
+        fs::create_directories(path);
+        fs::copy_file(GRANUM_SOURCE_DIR "/examples/01-lab-layering/case.toml", path / "lab.toml",
+                      fs::copy_options::overwrite_existing);
+    }
+    ~Folder() { fs::remove_all(path); }
+
+    std::string write(std::string const& text) const
+    {
+        std::ofstream(path / "study.toml") << text;
+        return (path / "study.toml").string();
+    }
+    std::string mistakes(std::string const& text) const
+    {
+        try {
+            read_study(write(text));
+        } catch (base::CaseError const& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+TEST(Study, makes_each_point_of_the_case_and_what_it_sets)
+{
+    Folder const folder;
+    auto const study = read_study(folder.write(R"(format = 1
+title = "two points"
+case = "lab.toml"
+[window]
+least = "3 s"
+error = 0.02
+[[point]]
+name = "A1"
+set.gas.temperature = "60 degC"
+set.spray.rate = "0.6 kg/h"
+[[point]]
+name = "A2"
+[point.set.granules]
+parcels = 5000
+)"));
+    EXPECT_EQ(study.title, "two points");
+    EXPECT_EQ(study.least, 3);
+    ASSERT_EQ(study.points.size(), 2u);
+    auto const read = [&](std::size_t k) {
+        auto const file = folder.path / fmt::format("point-{}.toml", k);
+        std::ofstream(file) << case_of(study, study.points[k]);
+        return sim::read_case(file.string()).data;
+    };
+    auto const lab = sim::read_case((folder.path / "lab.toml").string()).data;
+    auto const first = read(0), second = read(1);
+    EXPECT_NEAR(first.gas.inlet.temperature, 333.15, 1e-9);
+    EXPECT_NEAR(first.spray.rate, 0.6 / 3600, 1e-12);
+    EXPECT_EQ(first.granules.parcels, lab.granules.parcels);
+    EXPECT_EQ(first.gas.inlet.humidity, lab.gas.inlet.humidity);
+    EXPECT_EQ(second.granules.parcels, 5000);
+    EXPECT_EQ(second.spray.rate, lab.spray.rate);
+}
+
+TEST(Study, says_what_is_wrong_with_its_file)
+{
+    Folder const folder;
+    auto const has = [](std::string const& text, char const* part) { return text.find(part) != std::string::npos; };
+    std::string const head = "format = 1\ncase = \"lab.toml\"\n";
+    EXPECT_EQ(folder.mistakes(head + "[[point]]\nname = \"A\"\n"), "");
+    EXPECT_PRED2(has, folder.mistakes(head), "has points");
+    EXPECT_PRED2(has, folder.mistakes("format = 1\n[[point]]\nname = \"A\"\n"), "no case of its own");
+    EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A/B\"\n"), "name of a folder");
+    EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A\"\n[[point]]\nname = \"A\"\n"), "there already");
+    EXPECT_PRED2(has, folder.mistakes(head + "[window]\nleast = \"9 s\"\nmost = \"5 s\"\n[[point]]\nname = \"A\"\n"),
+                 "below window.least");
+    EXPECT_PRED2(has, folder.mistakes(head + "[windows]\n[[point]]\nname = \"A\"\n"), "window");
+    // A wrong value of a point is found before anything runs.
+    auto const study = read_study(folder.write(head + "[[point]]\nname = \"A\"\nset.gas.temperature = \"60 bar\"\n"));
+    int runs = 0;
+    auto const runner = [&](std::string const&, std::string const&, double) { return ++runs; };
+    EXPECT_THROW(run(study, (folder.path / "out").string(), runner, [](std::string const&) {}), base::CaseError);
+    EXPECT_EQ(runs, 0);
+}
+
+TEST(Study, lets_a_run_go_on_until_its_window_is_long_and_its_error_small)
+{
+    Study const study{.least = 5, .most = 20, .error = 0.01};
+    EXPECT_FALSE(next_end(study, {.from = 1, .to = 6.5, .settled = true, .error = 0.009}));
+    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 4, .settled = true, .error = 0.005}), 6, 1e-12);
+    // Twice the error: four times the length, and a tenth.
+    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 5, .settled = true, .error = 0.02}), 1 + 1.1 * 16, 1e-12);
+    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 6, .settled = true, .error = 0.2}), 21, 1e-12) << "window.most";
+    EXPECT_FALSE(next_end(study, {.from = 1, .to = 21.5, .settled = true, .error = 0.2}))
+        << "it is as long as it may be";
+    EXPECT_NEAR(*next_end(study, {.from = 3, .to = 6, .settled = false, .error = 0.2}), 11, 1e-12);
+    EXPECT_FALSE(next_end(study, {.from = 25, .to = 50, .settled = false, .error = 0.2}));
+}
+}
