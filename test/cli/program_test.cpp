@@ -135,8 +135,8 @@ TEST_F(Program, suggests_the_near_verb)
 
 TEST_F(Program, writes_templates_that_check)
 {
-    for (auto const* name :
-         {"lab-gf3", "pilot-x8", "rectangular-bed", "pile", "hopper", "drum", "cooling-gas", "wurster"}) {
+    for (auto const* name : {"lab-gf3", "pilot-x8", "rectangular-bed", "pile", "hopper", "drum", "cooling-gas",
+                             "wurster", "suspension", "melt"}) {
         auto const printed = call(std::string("new ") + name);
         EXPECT_EQ(printed.status, 0);
         EXPECT_LE(std::count(printed.text.begin(), printed.text.end(), '\n'), 60) << name;
