@@ -1,5 +1,5 @@
 # Writes the example cases that are templates into the program, so that `granum new` needs no files.
-set(templates lab-gf3 01-lab-layering pilot-x8 02-pilot-x8 rectangular-bed 03-rectangular-bed pile 04-pile hopper 05-hopper drum 06-drum cooling-gas 07-cooling-gas wurster 08-wurster suspension 09-suspension melt 10-melt)
+set(templates lab-gf3 01-lab-layering pilot-x8 11-pilot-x8 rectangular-bed 12-rectangular-bed pile 04-pile hopper 05-hopper drum 06-drum cooling-gas 07-cooling-gas wurster 08-wurster suspension 09-suspension melt 10-melt)
 set(entries "")
 while(templates)
     list(POP_FRONT templates name folder)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace granum::map
 {
@@ -73,19 +73,27 @@ double Axes::at(std::span<double const> values, Eigen::VectorXd const& nodes) co
     return sum;
 }
 
-Axis axis_over(std::string variable, bool logarithmic, std::span<double const> values, int nodes, double margin)
+Axis axis_over(std::string variable, bool logarithmic, std::span<double const> values, std::span<double const> weights,
+               int nodes)
 {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (double const value : values) {
-        if (!std::isfinite(value) || (logarithmic && value <= 0)) continue;
-        low = std::min(low, value), high = std::max(high, value);
+    constexpr double left_out = 1e-3, margin = 0.1;
+    std::vector<std::pair<double, double>> places;
+    double total = 0;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        double const x = logarithmic ? std::log(values[row]) : values[row];
+        if (std::isfinite(x) && weights[row] > 0) places.emplace_back(x, weights[row]), total += weights[row];
+    }
+    std::sort(places.begin(), places.end());
+    double low = 0, high = 0, sum = 0;
+    for (auto const& [x, weight] : places) {
+        if (sum <= left_out * total) low = x;
+        if (sum < (1 - left_out) * total) high = x;
+        sum += weight;
     }
     base::require(low < high, "{} has no two different values among the deposits", variable);
-    if (logarithmic) {
-        double const widen = std::pow(high / low, margin);
-        return {std::move(variable), true, low / widen, high * widen, nodes};
-    }
     double const widen = margin * (high - low);
-    return {std::move(variable), false, low - widen, high + widen, nodes};
+    low -= widen, high += widen;
+    if (logarithmic) low = std::exp(low), high = std::exp(high);
+    return {std::move(variable), logarithmic, low, high, nodes};
 }
 }

@@ -37,7 +37,9 @@ struct Axes
     double at(std::span<double const> values, Eigen::VectorXd const& nodes) const;
 };
 
-//! An axis over `values` with `margin` (share of the width) on either side. Logarithmic axes count values above 0 only.
-//! Throws base::NumericsError where fewer than two different values are finite.
-Axis axis_over(std::string variable, bool logarithmic, std::span<double const> values, int nodes, double margin = 0.1);
+//! An axis over `values` but for the thousandth of `weights` at either end, with a tenth of its width beyond on either
+//! side. Logarithmic axes count values above 0 only. Throws base::NumericsError where fewer than two different values
+//! are finite.
+Axis axis_over(std::string variable, bool logarithmic, std::span<double const> values, std::span<double const> weights,
+               int nodes);
 }

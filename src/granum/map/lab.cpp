@@ -114,12 +114,14 @@ Map fit(Lab const& lab, std::vector<RunDeposits>* read)
     for (auto const& run : lab.runs) runs.push_back(read_deposits(run.folder));
     Known known = lab.known;
     for (std::size_t a = 0; a < lab.variables.size(); ++a) {
-        std::vector<double> all;
+        std::vector<double> all, solids;
         for (auto const& run : runs) {
             auto const& values = run.deposits.of(lab.variables[a]);
             all.insert(all.end(), values.begin(), values.end());
+            solids.insert(solids.end(), run.deposits.solids.begin(), run.deposits.solids.end());
         }
-        known.axes.axes.push_back(axis_over(lab.variables[a], logarithmic(lab.variables[a]), all, lab.nodes[a]));
+        known.axes.axes.push_back(
+            axis_over(lab.variables[a], logarithmic(lab.variables[a]), all, solids, lab.nodes[a]));
     }
     std::vector<LabRun> points;
     for (std::size_t k = 0; k < runs.size(); ++k)

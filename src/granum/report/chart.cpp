@@ -173,7 +173,7 @@ std::string svg(CurveChart const& chart)
     Range x, y;
     for (auto const& curve : chart.curves) {
         for (std::size_t row = 0; row < std::min(curve.x.size(), curve.y.size()); ++row) {
-            if (!std::isfinite(curve.y[row])) continue;
+            if (!std::isfinite(curve.y[row]) || (chart.x.logarithmic && curve.x[row] <= 0)) continue;
             x.cover(curve.x[row]), y.cover(curve.y[row]);
         }
     }
@@ -183,7 +183,7 @@ std::string svg(CurveChart const& chart)
     double const least = std::max(0.01 * std::max(std::abs(y.low), std::abs(y.high)), 1e-12);
     double const pad = std::max(0.06 * (y.high - y.low), 0.5 * (least - (y.high - y.low)));
     bool const from_zero = y.low >= 0 && y.low < 0.2 * y.high;
-    Scale const across{x.low, x.high > x.low ? x.high : x.low + 1, left, width - right};
+    Scale const across{x.low, x.high > x.low ? x.high : x.low + 1, left, width - right, chart.x.logarithmic};
     Scale const up{from_zero ? 0 : y.low - pad, y.high + pad, height - bottom, top};
 
     std::string out = open_svg(chart.y.label) + frame(across, up, chart.x.label, chart.y.label);
@@ -192,7 +192,7 @@ std::string svg(CurveChart const& chart)
         out +=
             fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
                         path_of(curve, across, up), curve.colour, dashes(curve.stroke));
-        entries.push_back({curve.label, curve.colour, curve.stroke});
+        if (!curve.label.empty()) entries.push_back({curve.label, curve.colour, curve.stroke});
     }
     for (auto const& level : chart.levels) {  // above the curves, on a pale band, or a noisy curve would hide them
         if (!std::isfinite(level.value)) continue;

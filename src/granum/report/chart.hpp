@@ -18,7 +18,7 @@ enum class Stroke
 
 struct Curve
 {
-    std::string label;
+    std::string label;         //!< in the legend; empty: not there
     std::vector<double> x, y;  //!< NaN leaves a gap
     std::string colour = "#1b5e8c";
     Stroke stroke = Stroke::solid;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 namespace granum::study
 {
@@ -69,8 +70,8 @@ Mean member(Outcome const& one)
 
 constexpr std::array columns{
     Column{"window_from", "s", "window from", [](Outcome const& o) { return exactly(o.deposits.window.from); }},
-    Column{"window_to", "s", "to", [](Outcome const& o) { return exactly(o.deposits.window.to); }},
-    Column{"log10_drying_time", "1", "log10 of drying time (s)",
+    Column{"window_to", "s", "window to", [](Outcome const& o) { return exactly(o.deposits.window.to); }},
+    Column{"log10_drying_time", "1", "log10 of the drying time in s",
            [](Outcome const& o) {
                return Mean{o.deposits.window.mean, o.deposits.window.error};
            }},
@@ -80,12 +81,12 @@ constexpr std::array columns{
            [](Outcome const& o) { return mean_of(o.deposits.deposits, "drying_potential"); }},
     Column{"coverage", "1", "coverage at impact",
            [](Outcome const& o) { return mean_of(o.deposits.deposits, "coverage"); }},
-    Column{"eta", "1", "eta", member<&Outcome::eta>},
-    Column{"balance_eta", "1", "of the balance", member<&Outcome::balance_eta>},
+    Column{"eta", "1", "eta of the outlet", member<&Outcome::eta>},
+    Column{"balance_eta", "1", "eta of the balance", member<&Outcome::balance_eta>},
     Column{"outlet_temperature", "K", "outlet temperature", member<&Outcome::outlet_temperature>},
-    Column{"balance_temperature", "K", "of the balance", member<&Outcome::balance_temperature>},
+    Column{"balance_temperature", "K", "outlet temperature of the balance", member<&Outcome::balance_temperature>},
     Column{"outlet_humidity", "kg/kg", "outlet humidity", member<&Outcome::outlet_humidity>},
-    Column{"balance_humidity", "kg/kg", "of the balance", member<&Outcome::balance_humidity>},
+    Column{"balance_humidity", "kg/kg", "outlet humidity of the balance", member<&Outcome::balance_humidity>},
     Column{"solids_error", "1", "solids ledger", member<&Outcome::solids_error>},
     Column{"water_error", "1", "water ledger", member<&Outcome::water_error>},
     Column{"wall_time", "s", "wall time", member<&Outcome::wall>},
@@ -116,12 +117,14 @@ std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Predictio
 
 std::string table(std::vector<Outcome> const& outcomes)
 {
-    std::string out = "<table><tr><th>point</th>";
-    for (auto const& column : columns) out += fmt::format("<th class=\"num\">{}</th>", escape(column.title));
+    std::string out = "<table><tr><th></th>";
+    for (auto const& one : outcomes)
+        out += fmt::format("<th class=\"num\">{}{}</th>", escape(one.point.name), one.enough ? "" : " (short)");
     out += "</tr>\n";
-    for (auto const& one : outcomes) {
-        out += fmt::format("<tr><td>{}{}</td>", escape(one.point.name), one.enough ? "" : " (short)");
-        for (auto const& column : columns) {
+    for (auto const& column : columns) {
+        out += fmt::format("<tr><td>{}{}</td>", escape(column.title),
+                           std::string_view(column.unit) == "1" ? "" : fmt::format(" ({})", column.unit));
+        for (auto const& one : outcomes) {
             auto const mean = column.of(one);
             out += "<td class=\"num\">" + number(mean.value) + (mean.error > 0 ? " ± " + number(mean.error, 1) : "") +
                    "</td>";

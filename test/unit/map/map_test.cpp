@@ -46,14 +46,14 @@ TEST(Axes, give_back_what_is_linear_between_nodes_and_the_last_node_beyond)
     EXPECT_NEAR(axes.at(beyond, plane), 2 * 1 + 1, 1e-12);
 }
 
-TEST(Axes, over_values_have_a_margin)
+TEST(Axes, over_values_have_a_margin_and_leave_out_the_last_thousandth)
 {
-    double const values[] = {1, 100, std::nan(""), -3};
-    auto const axis = axis_over("drying_time", true, values, 12);
+    double const values[] = {1, 100, std::nan(""), -3, 1e9}, weights[] = {1, 1, 1, 1, 1e-4};
+    auto const axis = axis_over("drying_time", true, values, weights, 12);
     EXPECT_NEAR(axis.low, std::pow(10, -0.2), 1e-12);
     EXPECT_NEAR(axis.high, std::pow(10, 2.2), 1e-9);
     double const same[] = {2, 2};
-    EXPECT_THROW(axis_over("x", false, same, 12), base::NumericsError);
+    EXPECT_THROW(axis_over("x", false, same, same, 12), base::NumericsError);
 }
 
 Deposits deposits(std::vector<double> times, std::vector<double> moistures)

@@ -92,7 +92,7 @@ TEST(Scale, refuses_what_it_cannot_place)
     EXPECT_THROW(pilot({8, 1, Likeness::height}, GRANUM_SOURCE_DIR "/examples/08-wurster/case.toml"), base::CaseError);
     EXPECT_THROW(pilot({8, 0, Likeness::height}), base::CaseError);
     EXPECT_THROW(pilot({8, 1, Likeness::height}, "no-such-case.toml"), base::CaseError);
-    EXPECT_THROW(pilot({8, 1, Likeness::height}, GRANUM_SOURCE_DIR "/examples/03-rectangular-bed/case.toml"),
+    EXPECT_THROW(pilot({8, 1, Likeness::height}, GRANUM_SOURCE_DIR "/examples/12-rectangular-bed/case.toml"),
                  base::CaseError);
 }
 }
