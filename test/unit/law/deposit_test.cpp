@@ -4,6 +4,7 @@
 #include "granum/law/deposit/solidification.hpp"
 #include "granum/law/heat/ranz_marshall.hpp"
 #include "granum/law/layer/growth.hpp"
+#include "granum/law/layer/renewal.hpp"
 #include "granum/law/wetting/footprint.hpp"
 #include "scene/reference.hpp"
 
@@ -195,5 +196,17 @@ TEST(Solidification, passes_heat_to_the_gas_and_into_the_granule)
                                .above_granule = 60};
     EXPECT_NEAR(deposit::ToGas{}(cap), 1.44e-4, 1e-12);
     EXPECT_NEAR(deposit::ToGasAndGranule{}(cap), 1.44e-4 + 4.8e-3, 1e-12);
+}
+
+TEST(LayerSpread, falls_with_the_number_of_passes_as_renewal_theory_has_it)
+{
+    scene::Table const table("g-03.csv");
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        EXPECT_NEAR(
+            layer::renewal_variation(table.number(row, "process_time_s"), table.number(row, "mean_cycle_time_s"),
+                                     table.number(row, "cv_mass_per_pass"), table.number(row, "cv_cycle")),
+            table.number(row, "CV_theory"), 1e-6);
+    EXPECT_GE(table.rows(), 8u);
+    EXPECT_NEAR(layer::later_variation(3, 4, 400), 0.3, 1e-12);
 }
 }

@@ -1,0 +1,72 @@
+// granum project RUN: from the seconds of a run to the hours of its batch.
+#include "verbs.hpp"
+
+#include "granum/base/error.hpp"
+#include "granum/io/units.hpp"
+#include "granum/study/projection.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace granum::app
+{
+namespace
+{
+double quantity(std::string const& option, std::string const& text, io::Dimension dimension)
+{
+    try {
+        double const value = io::read_quantity(text, dimension);
+        if (value > 0) return value;
+        throw base::CaseError({{"", 0, fmt::format("{} \"{}\"", option, text), "is not above 0", {}}});
+    } catch (io::QuantityError const& wrong) {
+        throw base::CaseError({{"", 0, fmt::format("{} \"{}\"", option, text), wrong.what(), {wrong.hint}}});
+    }
+}
+}
+
+void add_project(CLI::App& program, Action& action)
+{
+    struct Wish
+    {
+        std::string folder, feed, discharge;
+        double hours = 1, sharpness = 20;
+    };
+    auto* verb = program.add_subcommand("project", "size and layer after hours, from the rates of a run");
+    auto wish = std::make_shared<Wish>();
+    verb->add_option("RUN", wish->folder, "run folder")->required();
+    verb->add_option("--hours", wish->hours, "to project (1)")->check(CLI::Range(1e-3, 1e4));
+    auto* feed =
+        verb->add_option("--feed", wish->feed, "cores that are fed, e.g. \"0.5 kg/h\": the bed is kept at its volume");
+    verb->add_option("--discharge", wish->discharge, "size that is let through, e.g. \"0.8 mm\"; with --feed")
+        ->needs(feed);
+    verb->add_option("--sharpness", wish->sharpness, "of the discharge (20)")->check(CLI::Range(1.0, 1000.0));
+    verb->callback([wish, &action] {
+        action = [wish] {
+            if (!std::filesystem::is_directory(wish->folder))
+                throw base::CaseError({{wish->folder, 0, "", "there is no such run folder", {}}});
+            std::optional<study::Continuous> continuous;
+            if (!wish->feed.empty()) {
+                if (wish->discharge.empty())
+                    throw base::CaseError({{"",
+                                            0,
+                                            "--feed",
+                                            "needs --discharge: what leaves a bed that is fed",
+                                            {"e.g. --discharge \"0.8 mm\""}}});
+                continuous =
+                    study::Continuous{quantity("--feed", wish->feed, io::Dimension::mass_flow),
+                                      quantity("--discharge", wish->discharge, io::Dimension::length), wish->sharpness};
+            }
+            auto const result = study::project(wish->folder, wish->hours, continuous);
+            study::write(result, wish->folder);
+            auto const& end = result.rows.back();
+            fmt::print(
+                "after {:.3g} h: d10 {:.1f} um, d50 {:.1f} um ({:.1f} to {:.1f} with the porosity's interval), d90 "
+                "{:.1f} um\n",
+                wish->hours, 1e6 * end.d10, 1e6 * end.d50, 1e6 * end.d50_low, 1e6 * end.d50_high, 1e6 * end.d90);
+            fmt::print("projection: {}/project.csv, {}/project.html\n", wish->folder, wish->folder);
+            return 0;
+        };
+    });
+}
+}
