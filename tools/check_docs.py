@@ -31,6 +31,7 @@ PREFIXES = {
         "read_gas_walls": ["gas.wall."],
     },
     "case_output.cpp": {"read_output": ["output.box."]},
+    "case_phases.cpp": {"read_phases": ["phase."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
     "case_solid.cpp": {"Reader": ["apparatus.solid."]},
     "case_solids.cpp": {"read_name": ["apparatus.solid.", "internal."], "read_solids": ["apparatus.solid."], "read_internals": ["internal."]},

@@ -371,6 +371,17 @@ struct OutputCase
     std::vector<BoxCase> boxes;
 };
 
+//! [[phase]]: what is set from `start` on; what a phase does not name stays as it was
+struct PhaseCase
+{
+    std::string name;
+    double start = 0, end = 0;                            //!< s
+    bool ramp = false;                                    //!< reached at the end, in a straight line; else at once
+    std::optional<double> gas_temperature, gas_humidity;  //!< K, kg/kg
+    std::optional<double> gas_share;                      //!< of the flows that the case states
+    std::optional<double> spray_rate;                     //!< kg/s
+};
+
 struct Case
 {
     std::string title = "untitled";
@@ -394,6 +405,7 @@ struct Case
     StartCase start;
     TimeCase time;
     OutputCase output;
+    std::vector<PhaseCase> phases;  //!< one after the other, from 0 on
 };
 
 //! Where a resolved value came from, for `granum explain` and the stored case.

@@ -3,6 +3,7 @@
 #include "granum/sim/build.hpp"
 #include "granum/sim/case_sections.hpp"
 #include "granum/sim/forecast.hpp"
+#include "granum/sim/programme.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -173,6 +174,15 @@ void check_drying(io::CaseFile& file, Case const& data)
                         steady.outlet_temperature - math::zero_celsius),
             {"lower gas.temperature or spray.rate, or raise gas.flow"});
     if (data.spray.allow_overwetting || data.spray.melting_point > 0) return;
+    for (std::size_t k = 0; k < data.phases.size(); ++k) {
+        Case then = data;
+        follow(then, Nominal(data), data.phases[k].end);
+        if (auto const wet = balance(then); wet.overwetted())
+            file.mistake(
+                fmt::format("phase[{}]", k),
+                fmt::format("has more spray than its air can dry: drying potential {:.2f} at the outlet", wet.eta),
+                {"lower spray_rate, raise gas_temperature or gas_share, or set spray.allow_overwetting = true"});
+    }
     if (!steady.overwetted()) return;
     double const most =
         (steady.wet_bulb_humidity - steady.inlet_humidity) * steady.dry_mass_flow / (1 - data.spray.solids_fraction);

@@ -61,6 +61,7 @@ ResolvedCase read_case(std::string const& path, Purpose purpose)
     read_process(file, data);
     read_time(file, data, purpose);
     read_output(file, data);
+    read_phases(file, data);  // last: it sets anew what stands above
     cross_check(file, data, purpose, out.warnings);
     file.finish();
 

@@ -31,6 +31,7 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose);
 void read_process(io::CaseFile& file, Case& data);                //!< [drying] [product] [start]
 void read_time(io::CaseFile& file, Case& data, Purpose purpose);  //!< and the intervals of [output]
 void read_output(io::CaseFile& file, Case& data);                 //!< after the apparatus
+void read_phases(io::CaseFile& file, Case& data);                 //!< after gas and spray
 
 //! The box between `key`lower and `key`upper, within the apparatus.
 RegionCase read_box(io::CaseFile& file, std::string const& key, geometry::Chamber const& chamber,

@@ -211,6 +211,8 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
                                           {"weight_over_area", "Pa"},
                                           {"bed_height", "m"},
                                           {"highest_granule", "m"},
+                                          {"inlet_temperature", "K"},
+                                          {"spray_rate", "kg/s"},
                                           {"bed_moisture", "kg/kg"},
                                           {"water_on_granules", "kg"},
                                           {"sprayed_solids", "kg"},
@@ -273,6 +275,7 @@ void Output::write(Sample const& s)
 {
     auto const& r = s.readings;
     auto const& t = s.totals;
+    auto const& inlets = simulation_.data().gas.inlets;
     double const gone = s.traffic.left_energy - s.traffic.fed_energy;
     energy_passed_ = std::max(energy_passed_, s.bed.translation + s.bed.rotation + s.bed.dissipated);
     energy_residual_ = s.bed.energy() + s.bed.dissipated + gone - s.bed.wall_work - samples_.front().bed.energy();
@@ -285,6 +288,8 @@ void Output::write(Sample const& s)
                             r.weight_over_area,
                             r.height,
                             r.highest,
+                            inlets.empty() ? std::nan("") : inlets.front().temperature,
+                            simulation_.data().spray.rate,
                             r.bed_moisture,
                             r.water_on_granules,
                             t.solids,

@@ -68,6 +68,7 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         watch.largest_overlap = 0, watch.warned_overlaps = 0;
         watch.dissipated = watch.wall_work = {};
     }
+    follow(case_, nominal_, 0);
     if (case_.gas.present) {
         if (!saved && comm_.size() > 1) share_space(partition(granules_.position.values, {}));
         grid_ = grid::build(grid::openness(case_.chamber), lines_, grid::layout(*partition_, lines_), comm_);
@@ -91,8 +92,10 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     comm_.sum(stock);
     ledgers_.solids.start = stock[0], ledgers_.water.start = stock[1], ledgers_.energy.start = stock[2];
     // The first steps are measured against a hundredth of a second of what the process moves.
-    ledgers_.solids.reference = 0.01 * case_.spray.rate * case_.spray.solids_fraction;
-    ledgers_.water.reference = 0.01 * (case_.spray.rate + balance_.dry_mass_flow * balance_.outlet_humidity);
+    double sprayed = nominal_.spray_rate;
+    for (auto const& phase : case_.phases) sprayed = std::max(sprayed, phase.spray_rate.value_or(0));
+    ledgers_.solids.reference = 0.01 * sprayed * case_.spray.solids_fraction;
+    ledgers_.water.reference = 0.01 * (sprayed + balance_.dry_mass_flow * balance_.outlet_humidity);
     ledgers_.energy.reference = std::max(1e-3 * std::abs(stock[2]), 1e-9);
     audit();
 }
@@ -131,8 +134,23 @@ void Simulation::step(double longest)
     audit();
 }
 
+void Simulation::follow_programme(double time)
+{
+    if (!follow(case_, nominal_, time)) return;
+    if (dry_inlet_flow(case_) > 0) balance_ = balance(case_);
+    for (std::size_t k = 0; k < case_.gas.inlets.size(); ++k) {
+        auto const& now = case_.gas.inlets[k];
+        auto& inlet = solver_->inlet(k);
+        inlet.mass_flow = moist_mass_flow(case_, now);
+        inlet.temperature = now.temperature;
+        inlet.vapour_fraction = air::fraction(now.humidity);
+    }
+    for (auto& nozzle : nozzles_) nozzle.rate = case_.spray.rate / static_cast<double>(nozzles_.size());
+}
+
 void Simulation::gas_step(double dt)
 {
+    if (!case_.phases.empty()) follow_programme(time_ + 0.5 * dt);
     sources_.clear(grid_);
     grid::Field voidage;
     {

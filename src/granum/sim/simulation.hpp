@@ -16,6 +16,7 @@
 #include "granum/sim/case.hpp"
 #include "granum/sim/hard_mover.hpp"
 #include "granum/sim/ledger.hpp"
+#include "granum/sim/programme.hpp"
 #include "granum/sim/surroundings.hpp"
 #include "granum/sim/traffic.hpp"
 #include "granum/sim/wall_room.hpp"
@@ -137,8 +138,9 @@ class Simulation
     par::Partition partition(std::vector<math::Vec3> places, std::vector<double> work) const;
     void add_cells(std::vector<math::Vec3>& points, std::vector<double>& work) const;  //!< this rank's share of them
     void share_space(par::Partition partition);
-    void balance_work(int substeps);  //!< cuts space anew where a rank has too much to do. Collective.
-    void move_gas();                  //!< to the ranks that have its cells now
+    void balance_work(int substeps);     //!< cuts space anew where a rank has too much to do. Collective.
+    void follow_programme(double time);  //!< sets inlets and spray to what they are then
+    void move_gas();                     //!< to the ranks that have its cells now
     void find_nozzle_cells();
     void place_granules();
     void make_gas();
@@ -189,6 +191,7 @@ class Simulation
     std::vector<double> potential_, evaporated_;
     std::vector<drying::Event> events_;
     Balance balance_;
+    Nominal nominal_{case_};  //!< what the programme starts from
     Ledgers ledgers_;
     //! Sums since the start on this rank: solids, water, energy that came in and went out.
     std::array<double, 3> in_{}, out_{};

@@ -1,5 +1,10 @@
 // Rows P30 and P31: fluidised beds of published experiments, whose gas must carry their weight: dp = (1 - rho_g /
 // rho_p) M g / A. Contacts are softened; the SSCP bed stands for its granules in parcels of eight.
+//
+// Granules that move strike the plate, and their blows carry a part of the bed as well, 2.5 % of it in Mueller's; and
+// over a second or two a bed may have gained or lost some speed. Pressure and blows less that must be the weight to 2
+// %, the pressure alone to 3 %.
+#include "granum/sim/bed_statistics.hpp"
 #include "scene/case_text.hpp"
 #include "verify/table.hpp"
 
@@ -18,8 +23,19 @@ struct Bed
 
 struct Means
 {
-    double pressure_drop = 0, weight = 0, height = 0, energy = 0;
+    double pressure_drop = 0;
+    double lean = 0;  //!< what granules press on plate and walls, less what sped them up, over the area, Pa
+    double weight = 0, height = 0, energy = 0;
 };
+
+//! Upward momentum of all granules, N s.
+double momentum(sim::Simulation& simulation)
+{
+    auto const& granules = simulation.granules();
+    double sum = 0;
+    for (std::size_t row = 0; row < granules.owned; ++row) sum += granules.mass[row] * granules.velocity[row].z;
+    return sum;
+}
 
 Means run(Bed const& bed)
 {
@@ -33,22 +49,36 @@ Means run(Bed const& bed)
             bed.velocity, bed.cells[0], bed.cells[1], bed.cells[2]));
     Means means;
     int count = 0;
+    double before = 0, since = 0;
     while (simulation->time() < bed.end) {
         simulation->step(1e-3);
-        if (simulation->time() < bed.settling) continue;
+        if (simulation->time() < bed.settling) {
+            before = momentum(*simulation), since = simulation->time();
+            continue;
+        }
         auto const now = simulation->readings();
+        double constexpr any_overlap = 1;
+        auto const bed_now =
+            sim::bed_statistics(simulation->granules(), simulation->mover(), simulation->comm(), any_overlap);
+        means.lean -= bed_now.wall_force.z / (bed.size.x * bed.size.y);
         means.pressure_drop += now.pressure_drop, means.weight += now.weight_over_area, means.height += now.height;
         ++count;
     }
-    means.pressure_drop /= count, means.weight /= count, means.height /= count;
+    double const area = bed.size.x * bed.size.y;
+    means.lean -= count * (momentum(*simulation) - before) / (simulation->time() - since) / area;
+    means.pressure_drop /= count, means.lean /= count, means.weight /= count, means.height /= count;
     means.energy = simulation->ledgers().energy.relative_error();
     return means;
 }
 
-void compare(char const* id, Bed const& bed, double weight, double tolerance)
+void compare(char const* id, Bed const& bed, double weight)
 {
     auto const means = run(bed);
-    verify::relative(id, bed.words + ": mean pressure drop, Pa", weight, means.pressure_drop, tolerance);
+    verify::relative(
+        id, bed.words + ": mean pressure drop with what granules press on plate and walls, less what sped them up, Pa",
+        weight, means.pressure_drop + means.lean, 0.02);
+    verify::relative(verify::Case(id, "2 to 3 %"), bed.words + ": mean pressure drop alone, Pa", weight,
+                     means.pressure_drop, 0.03);
     verify::relative(id, bed.words + ": weight over area of the case, Pa", weight, means.weight, 5e-3);
     verify::below(id, bed.words + ": enthalpy missing over what passed", 1e-6, means.energy);
 }
@@ -56,15 +86,15 @@ void compare(char const* id, Bed const& bed, double weight, double tolerance)
 TEST(FluidisedBed, of_mueller_is_carried_by_its_gas)
 {
     compare("P30",
-            {.words = "bed of Mueller, 9240 spheres of 1.2 mm, 0.9 m/s",
+            {.words = "bed of Mueller, 9240 spheres of 1.2 mm, 0.6 m/s",
              .granules = "diameter = \"1.2 mm\"\ndensity = \"1000 kg/m3\"\nnumber = 9240\n",
              .size = {0.044, 0.01, 0.16},
              .cells = {12, 3, 44},
-             .velocity = 0.9,
+             .velocity = 0.6,
              .modulus = 2e5,
-             .settling = 0.3,
-             .end = 1.3},
-            186.17, 0.02);
+             .settling = 0.5,
+             .end = 2.5},
+            186.17);
 }
 
 TEST(FluidisedBed, of_goldschmidt_is_carried_by_its_gas)
@@ -78,7 +108,7 @@ TEST(FluidisedBed, of_goldschmidt_is_carried_by_its_gas)
              .modulus = 1e6,
              .settling = 0.3,
              .end = 1.3},
-            2229, 0.03);
+            2229);
 }
 
 TEST(FluidisedBed, of_the_small_scale_challenge_is_carried_by_its_gas)
@@ -92,6 +122,6 @@ TEST(FluidisedBed, of_the_small_scale_challenge_is_carried_by_its_gas)
              .modulus = 1e6,
              .settling = 0.4,
              .end = 1.9},
-            1068.9, 0.03);
+            1068.9);
 }
 }
