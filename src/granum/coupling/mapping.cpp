@@ -2,6 +2,7 @@
 
 #include "granum/base/vectorised.hpp"
 #include "granum/geometry/ball_in_box.hpp"
+#include "granum/math/short_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -151,12 +152,7 @@ void Mapping::place_cells(particle::Store const& granules)
             low[d] = std::min(low[d], granules.position[row][d]);
             high[d] = std::max(high[d], granules.position[row][d]);
         }
-    std::array<std::size_t, 3> axes{0, 1, 2};
-    // Beds as deep as they are wide must not change sides with a granule.
-    Vec3 extent = high - low;
-    double const unit = 0.02 * std::max({extent.x, extent.y, extent.z, 1e-300});
-    for (std::size_t d = 0; d < 3; ++d) extent[d] = std::round(extent[d] / unit);
-    std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return extent[a] < extent[b]; });
+    auto const axes = math::short_axes(high - low);
     if (axes == fastest_ && !place_.empty()) return;
     fastest_ = axes;
     place_.resize(grid_.size());

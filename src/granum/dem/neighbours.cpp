@@ -1,5 +1,7 @@
 #include "granum/dem/neighbours.hpp"
 
+#include "granum/math/short_axes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,11 +61,11 @@ void NeighbourSearch::fill(Cells& cells, Domain const& domain, std::vector<std::
         }
         fits = total <= 4.0 * static_cast<double>(rows.size()) + 64;
     }
-    std::array<std::size_t, 3> order{0, 1, 2};
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return cells.number[a] < cells.number[b]; });
+    Vec3 lengths = high - low;
+    for (std::size_t d = 0; d < 3; ++d)
+        if (cells.wraps[d]) lengths[d] = whole[d];
     std::size_t count = 1;
-    for (auto const d : order) {
+    for (auto const d : math::short_axes(lengths)) {
         cells.stride[d] = count;
         count *= static_cast<std::size_t>(cells.number[d]);
     }
