@@ -16,6 +16,7 @@ class TemporaryFolder
         static int count = 0;
         path_ = std::filesystem::temp_directory_path() /
                 ("granum-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+        std::filesystem::remove_all(path_);  // of a test that was killed, whose number has come round again
         std::filesystem::create_directories(path_);
     }
     ~TemporaryFolder()
