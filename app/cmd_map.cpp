@@ -59,23 +59,28 @@ int predict(std::string const& path, std::vector<std::string> const& folders, bo
         points.emplace_back(map::features(map.known.axes, runs.back().deposits), runs.back().potential);
     }
     auto const answer = map::predict(map, points);
+    auto const granules = map::over_granules(map, runs.front().deposits);
     if (json) {
-        nlohmann::ordered_json const out{{"property", map.property},
-                                         {"unit", map.unit},
-                                         {"mean", answer.mean},
-                                         {"interval_low", answer.low},
-                                         {"interval_high", answer.high},
-                                         {"deviation", answer.deviation()},
-                                         {"deviation_regression", answer.regression},
-                                         {"deviation_sampling", answer.sampling},
-                                         {"deviation_parameters", answer.parameters},
-                                         {"extrapolation_index", answer.extrapolation}};
+        nlohmann::ordered_json out{{"property", map.property},
+                                   {"unit", map.unit},
+                                   {"mean", answer.mean},
+                                   {"interval_low", answer.low},
+                                   {"interval_high", answer.high},
+                                   {"deviation", answer.deviation()},
+                                   {"deviation_regression", answer.regression},
+                                   {"deviation_sampling", answer.sampling},
+                                   {"deviation_parameters", answer.parameters},
+                                   {"extrapolation_index", answer.extrapolation}};
+        if (granules) out["granules"] = {{"p10", granules->p10}, {"p50", granules->p50}, {"p90", granules->p90}};
         fmt::print("{}\n", out.dump(2));
         return 0;
     }
     print_windows(runs);
     fmt::print("{} {:.4g}{}, 95 % interval {:.4g} to {:.4g}\n", map.property, answer.mean,
                map.unit == "1" ? "" : " " + map.unit, answer.low, answer.high);
+    if (granules)
+        fmt::print("  over granules: p10 {:.4g}, p50 {:.4g}, p90 {:.4g}\n", granules->p10, granules->p50,
+                   granules->p90);
     fmt::print("  deviations: {:.2g} of the map, {:.2g} of the length of the run", answer.regression, answer.sampling);
     if (folders.size() > 1) fmt::print(", {:.2g} between the runs", answer.parameters);
     fmt::print("\n  extrapolation index {:.2f}{}\n", answer.extrapolation,

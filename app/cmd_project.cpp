@@ -2,8 +2,8 @@
 #include "verbs.hpp"
 
 #include "granum/base/error.hpp"
-#include "granum/io/units.hpp"
 #include "granum/study/projection.hpp"
+#include "option_quantity.hpp"
 
 #include <fmt/core.h>
 
@@ -11,20 +11,6 @@
 
 namespace granum::app
 {
-namespace
-{
-double quantity(std::string const& option, std::string const& text, io::Dimension dimension)
-{
-    try {
-        double const value = io::read_quantity(text, dimension);
-        if (value > 0) return value;
-        throw base::CaseError({{"", 0, fmt::format("{} \"{}\"", option, text), "is not above 0", {}}});
-    } catch (io::QuantityError const& wrong) {
-        throw base::CaseError({{"", 0, fmt::format("{} \"{}\"", option, text), wrong.what(), {wrong.hint}}});
-    }
-}
-}
-
 void add_project(CLI::App& program, Action& action)
 {
     struct Wish
@@ -53,9 +39,9 @@ void add_project(CLI::App& program, Action& action)
                                             "--feed",
                                             "needs --discharge: what leaves a bed that is fed",
                                             {"e.g. --discharge \"0.8 mm\""}}});
-                continuous =
-                    study::Continuous{quantity("--feed", wish->feed, io::Dimension::mass_flow),
-                                      quantity("--discharge", wish->discharge, io::Dimension::length), wish->sharpness};
+                continuous = study::Continuous{option_quantity("--feed", wish->feed, io::Dimension::mass_flow),
+                                               option_quantity("--discharge", wish->discharge, io::Dimension::length),
+                                               wish->sharpness};
             }
             auto const result = study::project(wish->folder, wish->hours, continuous);
             study::write(result, wish->folder);

@@ -4,13 +4,13 @@
 #include "cores.hpp"
 #include "granum/base/error.hpp"
 #include "granum/io/folder_lock.hpp"
-#include "granum/io/units.hpp"
 #include "granum/report/report.hpp"
 #include "granum/sim/case_reader.hpp"
 #include "granum/sim/continuation.hpp"
 #include "granum/sim/run.hpp"
 #include "granum/sim/stop.hpp"
 #include "launcher.hpp"
+#include "option_quantity.hpp"
 
 #include <fmt/core.h>
 
@@ -71,13 +71,7 @@ Place choose_place(Wish const& wish, sim::ResolvedCase const& resolved)
 std::optional<double> read_until(Wish const& wish)
 {
     if (wish.until.empty()) return std::nullopt;
-    try {
-        double const until = io::read_quantity(wish.until, io::Dimension::time);
-        if (until > 0) return until;
-        throw base::CaseError({{"", 0, fmt::format("--until \"{}\"", wish.until), "is not above 0", {}}});
-    } catch (io::QuantityError const& wrong) {
-        throw base::CaseError({{"", 0, fmt::format("--until \"{}\"", wish.until), wrong.what(), {wrong.hint}}});
-    }
+    return option_quantity("--until", wish.until, io::Dimension::time);
 }
 
 //! As many ranks as there are cores, but each with at least two layers of cells of its slab or, without gas, with

@@ -1,10 +1,8 @@
 // granum study STUDY: runs a campaign of operating points, each until its statistics are good enough.
 #include "verbs.hpp"
 
-#include "cores.hpp"
 #include "granum/base/error.hpp"
 #include "granum/study/study.hpp"
-#include "launcher.hpp"
 
 #include <fmt/core.h>
 
@@ -24,7 +22,7 @@ void add_study(CLI::App& program, Action& action)
     auto wish = std::make_shared<Wish>();
     verb->add_option("STUDY", wish->path, "file of the study")->required();
     verb->add_option("-o,--output", wish->folder, "folder of the campaign (default: STUDY without its ending)");
-    verb->add_option("-n,--ranks", wish->ranks, "ranks of each run (default: the cores of this machine)")
+    verb->add_option("-n,--ranks", wish->ranks, "ranks of each run (default: as granum run chooses)")
         ->check(CLI::Range(1, 1024));
     verb->callback([wish, &action] {
         action = [wish] {
@@ -32,9 +30,8 @@ void add_study(CLI::App& program, Action& action)
             auto const study = study::read_study(wish->path);
             auto const folder =
                 wish->folder.empty() ? fs::path(wish->path).replace_extension("").string() : wish->folder;
-            int const ranks = wish->ranks > 0 ? wish->ranks : cores();
             auto const runner = [&](std::string const& file, std::string const& place, double until) {
-                return run_case(file, place, until, ranks);
+                return run_case(file, place, until, wish->ranks);
             };
             auto const said = [](std::string const& line) {
                 fmt::print("{}\n", line);

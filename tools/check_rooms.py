@@ -19,7 +19,7 @@ EXTERNAL = {
     r"zlib\.h": {"io", "report", "test"},
     r"png\.h": {"report", "test"},
     r"Eigen/": {"map", "test"},
-    r"nlohmann/": {"io", "map", "report", "sim", "study", "app", "test"},
+    r"nlohmann/": {"io", "map", "report", "sim", "app", "test"},
     r"_?HYPRE|krylov\.h": {"solve"},
     r"hwy/": {"dem"},
     r"mpi\.h": {"par", "solve", "app", "test", "bench"},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace granum::map
 {
@@ -112,6 +113,27 @@ Map fit(std::string property, std::string unit, Known known, std::vector<LabRun>
         if (wanted.compare) out.comparisons.push_back(compared(*empty, all, out.known));
     }
     return out;
+}
+
+std::optional<product::Percentiles> over_granules(Map const& map, Deposits const& deposits)
+{
+    auto const* additive = std::get_if<Additive>(&map.models[map.chosen]);
+    if (!additive) return std::nullopt;
+    auto const& axes = map.known.axes;
+    Eigen::VectorXd const property = additive->at_nodes();
+    std::vector<std::vector<double> const*> columns;
+    for (auto const& axis : axes.axes) columns.push_back(&deposits.of(axis.variable));
+    std::map<double, std::pair<double, double>> layers;  // solids, and solids times property, by granule
+    std::vector<double> at(columns.size());
+    for (std::size_t row = 0; row < deposits.size(); ++row) {
+        for (std::size_t a = 0; a < columns.size(); ++a) at[a] = (*columns[a])[row];
+        auto& [solids, weighted] = layers[deposits.granule[row]];
+        solids += deposits.solids[row], weighted += deposits.solids[row] * axes.at(at, property);
+    }
+    std::vector<double> values, weights;
+    for (auto const& [granule, sums] : layers)
+        values.push_back(sums.second / sums.first), weights.push_back(sums.first);
+    return product::percentiles(values, weights);
 }
 
 double extrapolation_index(Eigen::VectorXd const& support, Eigen::VectorXd const& histogram)

@@ -4,6 +4,7 @@
 
 #include "granum/map/all.hpp"
 #include "granum/map/features.hpp"
+#include "granum/product/aggregate.hpp"
 
 #include <optional>
 #include <string>
@@ -66,6 +67,11 @@ struct Prediction
 //! Of a run, or of several runs of one operating point with other model parameters (drag law, capture law, drying law).
 Prediction predict(Map const& map, std::vector<std::pair<Features, double>> const& runs_and_potentials,
                    std::uint32_t seed = 1);
+
+//! The property over the granules of a run, each the mean over its own layer, weighted with its solids: only of a map
+//! that predicts with the additive model, which alone knows single deposits. Throws base::NumericsError where no
+//! granule has a layer.
+std::optional<product::Percentiles> over_granules(Map const& map, Deposits const& deposits);
 
 //! 1 - sum over nodes of the smaller of the share here and the most that any lab run has there.
 double extrapolation_index(Eigen::VectorXd const& support, Eigen::VectorXd const& histogram);

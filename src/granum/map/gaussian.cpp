@@ -8,20 +8,13 @@
 
 namespace granum::map
 {
-namespace
+double log_evidence(Eigen::MatrixXd const& covariance, Eigen::VectorXd const& values)
 {
-double log_evidence(Eigen::LLT<Eigen::MatrixXd> const& factor, Eigen::VectorXd const& values)
-{
+    Eigen::LLT<Eigen::MatrixXd> const factor(covariance);
     base::require(factor.info() == Eigen::Success, "measured values whose covariance is not positive");
     double const log_determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
     return -0.5 * (values.dot(factor.solve(values)) + log_determinant +
                    static_cast<double>(values.size()) * std::log(2 * math::pi));
-}
-}
-
-double log_evidence(Eigen::MatrixXd const& covariance, Eigen::VectorXd const& values)
-{
-    return log_evidence(Eigen::LLT<Eigen::MatrixXd>(covariance), values);
 }
 
 Posterior posterior(Eigen::MatrixXd const& rows, Eigen::VectorXd const& values, Eigen::VectorXd const& variances,
@@ -31,11 +24,8 @@ Posterior posterior(Eigen::MatrixXd const& rows, Eigen::VectorXd const& values, 
     Eigen::MatrixXd measured = spread * rows.transpose();
     measured.diagonal() += variances;
     Eigen::LLT<Eigen::MatrixXd> const factor(measured);
-    Posterior out;
-    out.log_evidence = log_evidence(factor, values);
-    out.mean = spread.transpose() * factor.solve(values);
-    out.covariance = prior - spread.transpose() * factor.solve(spread);
-    return out;
+    base::require(factor.info() == Eigen::Success, "measured values whose covariance is not positive");
+    return {spread.transpose() * factor.solve(values), prior - spread.transpose() * factor.solve(spread)};
 }
 
 std::vector<double> weights(std::vector<double> const& evidence)

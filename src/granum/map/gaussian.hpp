@@ -17,7 +17,6 @@ namespace granum::map
 //! Values at unknown places x, of which y = h x + noise was measured; x ~ N(prior_mean, prior).
 struct Posterior
 {
-    double log_evidence = 0;  //!< of one choice; 0 of several
     Eigen::VectorXd mean;
     Eigen::MatrixXd covariance;
 };
@@ -48,7 +47,7 @@ Posterior averaged(Eigen::MatrixXd const& rows, Eigen::VectorXd const& values, E
         evidence.push_back(log_evidence(covariance, values));
     }
     auto const share = weights(evidence);
-    Posterior out{0, Eigen::VectorXd::Zero(rows.cols()), Eigen::MatrixXd::Zero(rows.cols(), rows.cols())};
+    Posterior out{Eigen::VectorXd::Zero(rows.cols()), Eigen::MatrixXd::Zero(rows.cols(), rows.cols())};
     std::vector<std::pair<double, Eigen::VectorXd>> means;
     for (std::size_t k = 0; k < choices; ++k) {
         if (share[k] == 0) continue;

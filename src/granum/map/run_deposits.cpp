@@ -2,9 +2,7 @@
 
 #include "granum/base/error.hpp"
 #include "granum/io/events_file.hpp"
-#include "granum/io/text_file.hpp"
-
-#include <nlohmann/json.hpp>
+#include "granum/io/summary_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +12,6 @@ namespace granum::map
 {
 namespace
 {
-double number(nlohmann::json const& summary, char const* group, char const* name)
-{
-    auto const found = summary.find(group);
-    if (found == summary.end() || !found->is_object() || !found->contains(name) || !(*found)[name].is_number())
-        return std::nan("");
-    return (*found)[name].get<double>();
-}
-
 //! Means of log10 of the drying time, one per interval in which anything has dried.
 Window window_of(std::vector<double> const& time, std::vector<double> const& solids, std::vector<double> const& drying,
                  double interval)
@@ -62,12 +52,10 @@ RunDeposits read_deposits(std::string const& folder, double interval)
     RunDeposits out;
     out.folder = folder;
     auto const table = io::read_events((fs::path(folder) / "events.h5").string());
-    auto const summary =
-        nlohmann::json::parse(io::read_text((fs::path(folder) / "summary.json").string()), nullptr, false);
-    if (summary.is_discarded()) throw base::IoError(folder + "/summary.json: is not JSON");
+    auto const summary = io::read_summary(folder);
     out.title = summary.value("title", fs::path(folder).filename().string());
-    out.potential = number(summary, "result", "eta_global");
-    if (!std::isfinite(out.potential)) out.potential = number(summary, "balance", "eta");
+    auto const measured = io::number_at(summary, "result.eta_global");
+    out.potential = measured ? *measured : io::number_at(summary, "balance.eta").value_or(std::nan(""));
 
     auto const column = [&](std::string const& name) -> std::vector<double> const& {
         auto const* found = table.find(name);

@@ -1,6 +1,7 @@
 #include "granum/report/run_folder.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/io/summary_file.hpp"
 #include "granum/io/text_file.hpp"
 
 #include <filesystem>
@@ -26,23 +27,12 @@ std::vector<std::string> warnings_of(std::string const& log)
 
 nlohmann::json const& RunFolder::at(std::string_view key) const
 {
-    static nlohmann::json const nothing;
-    nlohmann::json const* here = &summary;
-    while (true) {
-        auto const dot = key.find('.');
-        std::string const name(key.substr(0, dot));
-        if (!here->is_object() || !here->contains(name)) return nothing;
-        here = &(*here)[name];
-        if (dot == std::string_view::npos) return *here;
-        key.remove_prefix(dot + 1);
-    }
+    return io::at(summary, key);
 }
 
 std::optional<double> RunFolder::value(std::string_view key) const
 {
-    auto const& found = at(key);
-    if (!found.is_number()) return std::nullopt;
-    return found.get<double>();
+    return io::number_at(summary, key);
 }
 
 std::string RunFolder::text(std::string_view key, std::string const& otherwise) const
@@ -89,7 +79,7 @@ RunFolder read_run(std::string const& path)
             run.missing.push_back(fmt::format("{}: {}", file, error.what()));
         }
     };
-    attempt("summary.json", [&](std::string const& file) { run.summary = nlohmann::json::parse(io::read_text(file)); });
+    attempt("summary.json", [&](std::string const&) { run.summary = io::read_summary(path); });
     attempt("timeseries.csv", [&](std::string const& file) { run.series = io::read_series(file); });
     // A case without a spray has no events to miss.
     if (run.summary.empty() || run.summary.contains("spray"))

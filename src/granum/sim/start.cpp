@@ -112,7 +112,7 @@ void Simulation::start_deposits()
     double const temperature = balance_.outlet_temperature;
     double const vapour = air::fraction(balance_.outlet_humidity);
     double const real = batch.mass / (batch.density * math::pi / 6 * std::pow(batch.diameter, 3));
-    if (!(real > 0) || !(spray.rate > 0) || liquid.melt()) return;  // a melt is solid within milliseconds
+    if (!(real > 0) || !(spray.rate > 0) || liquid.melt()) return;  // a melt is solid at once
 
     auto const film = law::deposit::film(temperature, 1.0, temperature, vapour, pressure);
     double const viscosity = air::viscosity(temperature), density = air::density(pressure, temperature, vapour);

@@ -1,6 +1,7 @@
 #include "granum/study/projection.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/io/summary_file.hpp"
 #include "granum/io/text_file.hpp"
 #include "granum/law/layer/renewal.hpp"
 #include "granum/math/constants.hpp"
@@ -13,7 +14,6 @@
 #include "granum/sim/continuation.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +28,13 @@ using report::number;
 
 constexpr double limit = 0.98;  // of a porosity: an interval may reach beyond
 
-double needed(nlohmann::json const& summary, std::string const& folder, char const* pointer)
+double needed(nlohmann::json const& summary, std::string const& folder, char const* key)
 {
-    nlohmann::json::json_pointer const at(pointer);
-    if (!summary.contains(at) || !summary.at(at).is_number())
+    auto const found = io::number_at(summary, key);
+    if (!found)
         throw base::IoError(
-            fmt::format("{}/summary.json: does not tell {}; a projection needs a run with a spray", folder, pointer));
-    return summary.at(at).get<double>();
+            fmt::format("{}/summary.json: does not tell {}; a projection needs a run with a spray", folder, key));
+    return *found;
 }
 
 //! The cores in classes of a few micrometres: up to what the layer of a batch makes of them, with room for a spread; of
@@ -60,20 +60,19 @@ population::Classes cores(sim::Case const& data, std::optional<double> layer_vol
 Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous, int rows)
 {
     auto const data = sim::read_case(sim::case_file_of(folder)).data;
-    auto const summary = nlohmann::json::parse(io::read_text((fs::path(folder) / "summary.json").string()));
+    auto const summary = io::read_summary(folder);
     Projection out;
-    out.porosity = needed(summary, folder, "/product/porosity/mean");
-    out.porosity_low = std::max(0.0, needed(summary, folder, "/product/porosity/interval_low"));
-    out.porosity_high = std::min(limit, needed(summary, folder, "/product/porosity/interval_high"));
-    out.moisture = needed(summary, folder, "/product/residual_moisture");
-    double const sprayed = needed(summary, folder, "/spray/sprayed_kg");
+    out.porosity = needed(summary, folder, "product.porosity.mean");
+    out.porosity_low = std::max(0.0, needed(summary, folder, "product.porosity.interval_low"));
+    out.porosity_high = std::min(limit, needed(summary, folder, "product.porosity.interval_high"));
+    out.moisture = needed(summary, folder, "product.residual_moisture");
+    double const sprayed = needed(summary, folder, "spray.sprayed_kg");
     out.overspray =
-        (needed(summary, folder, "/spray/overspray_kg") + needed(summary, folder, "/spray/on_walls_kg")) / sprayed;
+        (needed(summary, folder, "spray.overspray_kg") + needed(summary, folder, "spray.on_walls_kg")) / sprayed;
     out.solids_rate = data.spray.rate * data.spray.solids_fraction;
     double const kept = out.solids_rate * (1 - out.overspray), end = 3600 * hours;
-    double const simulated = needed(summary, folder, "/run/simulated_s");
-    nlohmann::json::json_pointer const spread("/product/surface/variation_between");
-    double const variation = summary.contains(spread) ? summary.at(spread).get<double>() : std::nan("");
+    double const simulated = needed(summary, folder, "run.simulated_s");
+    double const variation = io::number_at(summary, "product.surface.variation_between").value_or(std::nan(""));
     double core_mass = 0;
     for (auto const& batch : data.granules.batches) core_mass += batch.mass;
 

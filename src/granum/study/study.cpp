@@ -3,10 +3,9 @@
 #include "granum/base/error.hpp"
 #include "granum/io/case_edit.hpp"
 #include "granum/io/case_file.hpp"
+#include "granum/io/summary_file.hpp"
 #include "granum/io/text_file.hpp"
 #include "granum/sim/case_reader.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,31 +21,22 @@ using io::Dimension;
 
 constexpr double first_look = 1;  // s beyond the window, for the start to die away
 
-double number(nlohmann::json const& summary, std::initializer_list<char const*> path)
-{
-    auto const* here = &summary;
-    for (auto const* name : path) {
-        if (!here->is_object() || !here->contains(name)) return std::nan("");
-        here = &(*here)[name];
-    }
-    return here->is_number() ? here->get<double>() : std::nan("");
-}
-
 Outcome outcome_of(Point const& point, std::string const& folder)
 {
     Outcome out{.point = point, .folder = folder};
     out.deposits = map::read_deposits(folder);
-    auto const summary = nlohmann::json::parse(io::read_text((fs::path(folder) / "summary.json").string()));
-    out.simulated = number(summary, {"run", "simulated_s"});
-    out.wall = number(summary, {"run", "wall_s"});
-    out.eta = number(summary, {"result", "eta_global"});
-    out.outlet_temperature = number(summary, {"result", "outlet_temperature_K"});
-    out.outlet_humidity = number(summary, {"result", "outlet_humidity"});
-    out.balance_eta = number(summary, {"balance", "eta"});
-    out.balance_temperature = number(summary, {"balance", "outlet_temperature_K"});
-    out.balance_humidity = number(summary, {"balance", "outlet_humidity"});
-    out.solids_error = number(summary, {"ledger", "solids", "relative_error"});
-    out.water_error = number(summary, {"ledger", "water", "relative_error"});
+    auto const summary = io::read_summary(folder);
+    auto const number = [&](char const* key) { return io::number_at(summary, key).value_or(std::nan("")); };
+    out.simulated = number("run.simulated_s");
+    out.wall = number("run.wall_s");
+    out.eta = number("result.eta_global");
+    out.outlet_temperature = number("result.outlet_temperature_K");
+    out.outlet_humidity = number("result.outlet_humidity");
+    out.balance_eta = number("balance.eta");
+    out.balance_temperature = number("balance.outlet_temperature_K");
+    out.balance_humidity = number("balance.outlet_humidity");
+    out.solids_error = number("ledger.solids.relative_error");
+    out.water_error = number("ledger.water.relative_error");
     return out;
 }
 }

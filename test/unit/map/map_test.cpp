@@ -103,7 +103,8 @@ TEST(Posterior, of_one_number_is_known_in_closed_form)
                                Eigen::MatrixXd::Constant(1, 1, 4.0));
     EXPECT_NEAR(one.mean[0], 8, 1e-12);
     EXPECT_NEAR(one.covariance(0, 0), 0.8, 1e-12);
-    EXPECT_NEAR(one.log_evidence, -0.5 * (100 / 5.0 + std::log(2 * M_PI * 5)), 1e-12);
+    EXPECT_NEAR(log_evidence(Eigen::MatrixXd::Constant(1, 1, 5.0), VectorXd::Constant(1, 10.0)),
+                -0.5 * (100 / 5.0 + std::log(2 * M_PI * 5)), 1e-12);
     EXPECT_NEAR(weights({-10, -10 + std::log(3.0)})[1], 0.75, 1e-12);
 }
 
@@ -217,6 +218,21 @@ TEST(Map, tells_how_much_of_a_layer_the_lab_has_not_seen)
     auto const inside = runs_at({0.3}, truth, 0).front(), outside = runs_at({5.0}, truth, 0).front();
     EXPECT_LT(predict(map, {{inside.features, 0.5}}).extrapolation, 0.05);
     EXPECT_GT(predict(map, {{outside.features, 0.5}}).extrapolation, 0.95);
+}
+
+TEST(Map, tells_how_granules_differ_by_what_their_own_deposits_went_through)
+{
+    auto const truth = [](double t) { return 0.5 + 0.2 * std::log10(t); };
+    auto map = fit("p", "1", {.axes = time_alone()}, runs_at({0.2, 0.5, 1, 2, 4}, truth, 1e-3));
+    // Three granules: two of deposits of 0.5 s and one, half of 0.5 s and half of 2 s, with twice the layer of either.
+    auto given = deposits({0.5, 0.5, 0.5, 2}, {2, 2, 2, 2});
+    given.granule = {0, 1, 2, 2};
+    auto const spread = over_granules(map, given);
+    ASSERT_TRUE(spread);
+    EXPECT_NEAR(spread->p10, truth(0.5), 0.01);
+    EXPECT_NEAR(spread->p90, 0.5 * (truth(0.5) + truth(2)), 0.01);
+    map.chosen = 1;  // of a line in the potential single deposits have none
+    EXPECT_FALSE(over_granules(map, given));
 }
 
 TEST(Map, adds_up_what_makes_it_uncertain)

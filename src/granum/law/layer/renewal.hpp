@@ -1,6 +1,6 @@
 // How the mass of the layer differs among granules that pass a spray zone again and again.
 //
-// Source: Mann, Powder Technol. 36 (1983) 117 (recalled): a renewal process of cycles.
+// Source: Mann 1983 (recalled): a renewal process of cycles.
 #pragma once
 
 #include <cmath>
