@@ -84,6 +84,7 @@ int main(int argc, char** argv)
     app::add_scale(program, action);
     app::add_study(program, action);
     app::add_project(program, action);
+    app::add_compare(program, action);
     if (app::is_unknown_verb(program, argc, argv)) return app::status(base::Exit::usage);
     try {
         program.parse(argc, argv);

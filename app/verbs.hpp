@@ -22,6 +22,7 @@ void add_map(CLI::App& program, Action& action);
 void add_scale(CLI::App& program, Action& action);
 void add_study(CLI::App& program, Action& action);
 void add_project(CLI::App& program, Action& action);
+void add_compare(CLI::App& program, Action& action);
 
 //! `granum run CASE -o FOLDER -n RANKS --until UNTIL --quiet`, in processes of its own; its exit status. Ranks 0:
 //! as that chooses. Throws as launch_ranks.

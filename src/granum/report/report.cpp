@@ -19,7 +19,7 @@ std::string write(std::string const& run_folder)
         page += packing_section(run) + curves_section(run);
     else
         page += porosity_section(run) + product_section(run) + checks_section(run) + curves_section(run) +
-                events_section(run) + spray_section(run);
+                probes_section(run) + events_section(run) + spray_section(run);
     page += performance_section(run) + warnings_section(run) + case_section(run);
     page +=
         "<footer>Made by Granum from the files beside this page: summary.json, timeseries.csv, events.h5, and a series "

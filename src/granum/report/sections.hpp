@@ -15,6 +15,7 @@ std::string events_section(RunFolder const& run);
 std::string porosity_section(RunFolder const& run);
 std::string packing_section(RunFolder const& run);  //!< of granules alone: contacts, energy, what came and went
 std::string product_section(RunFolder const& run);
+std::string probes_section(RunFolder const& run);  //!< "" without probes
 std::string spray_section(RunFolder const& run);
 std::string performance_section(RunFolder const& run);
 std::string warnings_section(RunFolder const& run);

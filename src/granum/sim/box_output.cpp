@@ -121,7 +121,7 @@ BoxOutput::BoxOutput(std::string const& folder, Simulation& simulation) : simula
     for (auto const& box : boxes)
         for (auto const& [what, unit] : std::span(columns_of_box).first(width()))
             columns.push_back({box.name + "_" + what, unit});
-    file_ = std::make_unique<io::SeriesWriter>(folder + "/boxes.csv", columns);
+    table_ = {folder + "/boxes.csv", "boxes", columns};
 }
 
 std::size_t BoxOutput::width() const
@@ -129,46 +129,25 @@ std::size_t BoxOutput::width() const
     return columns_of_box.size() - (simulation_.has_gas() ? 0 : 1);
 }
 
-std::string BoxOutput::head() const
-{
-    std::string out = fmt::format("{}\n", width());
-    for (auto const& [name, region] : simulation_.data().output.boxes)
-        out += fmt::format("{} {} {} {} {} {} {}\n", name, region.lower.x, region.lower.y, region.lower.z,
-                           region.upper.x, region.upper.y, region.upper.z);
-    return out;
-}
-
 void BoxOutput::sample()
 {
     last_ = box_contents(simulation_);
-    if (!file_) return;
+    if (!table_.writes()) return;
     std::vector<double> row{simulation_.time()};
     for (auto const& box : last_) {
         auto const numbers = row_of(box);
         row.insert(row.end(), numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(width()));
     }
-    file_->append(row);
-    rows_.insert(rows_.end(), row.begin(), row.end());
-}
-
-void BoxOutput::save(io::Sections& out) const
-{
-    auto const text = head();
-    out.push_back(io::section_of("output.boxes.head", std::vector<char>(text.begin(), text.end())));
-    out.push_back(io::section_of("output.boxes", rows_));
+    table_.append(row);
 }
 
 void BoxOutput::go_on(io::Sections const& saved)
 {
-    auto const was = io::values_of<char>(io::find_section(saved, "output.boxes.head"));
-    if (!file_ || std::string(was.begin(), was.end()) != head()) return;
-    rows_ = io::values_of<double>(io::find_section(saved, "output.boxes"));
-    std::size_t const boxes = simulation_.data().output.boxes.size(), row = 1 + width() * boxes;
-    for (std::size_t at = 0; at + row <= rows_.size(); at += row)
-        file_->append(std::span<double const>(rows_).subspan(at, row));
-    if (rows_.size() < row) return;
-    for (std::size_t b = 0; b < boxes; ++b) {
-        auto const* const numbers = rows_.data() + rows_.size() - row + 1 + width() * b;
+    table_.go_on(saved);
+    if (table_.rows() == 0) return;
+    auto const row = table_.row(table_.rows() - 1);
+    for (std::size_t b = 0; b < simulation_.data().output.boxes.size(); ++b) {
+        auto const numbers = row.subspan(1 + width() * b, width());
         last_.push_back(
             {numbers[0], numbers[1], {numbers[2], numbers[3], numbers[4]}, simulation_.has_gas() ? numbers[5] : 0});
     }

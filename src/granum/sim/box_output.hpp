@@ -1,11 +1,9 @@
 // How densely granules lie in boxes that the case names, and where they go: boxes.csv.
 #pragma once
 
-#include "granum/io/csv.hpp"
-#include "granum/io/sections.hpp"
+#include "granum/sim/kept_series.hpp"
 #include "granum/sim/simulation.hpp"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,18 +30,15 @@ class BoxOutput
     void sample();  //!< a row of boxes.csv
     std::vector<BoxContent> const& last() const { return last_; }
 
-    //! What the file held, and how it goes on from there; on rank 0. A run that goes on with other boxes begins it
-    //! anew.
-    void save(io::Sections& out) const;
+    //! What the file held, and how it goes on from there; on rank 0.
+    void save(io::Sections& out) const { table_.save(out); }
     void go_on(io::Sections const& saved);
 
   private:
-    std::string head() const;   //!< all that the columns depend on
     std::size_t width() const;  //!< columns of a box
 
     Simulation& simulation_;
-    std::unique_ptr<io::SeriesWriter> file_;
-    std::vector<double> rows_;  //!< one after the other
+    KeptSeries table_;
     std::vector<BoxContent> last_;
 };
 }

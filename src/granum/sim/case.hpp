@@ -363,12 +363,28 @@ struct BoxCase
     RegionCase region;
 };
 
+//! A point where the gas is looked at, or points along a line at equal distances, both ends among them.
+struct ProbeCase
+{
+    std::string name;
+    Vec3 from, to;
+    long points = 1;
+
+    Vec3 at(long k) const
+    {
+        return points < 2 ? from : from + static_cast<double>(k) / static_cast<double>(points - 1) * (to - from);
+    }
+    //! Of the columns of a point: the name, and its number on a line.
+    std::string label(long k) const { return points < 2 ? name : name + "-" + std::to_string(k); }
+};
+
 //! What [output] asks for besides its intervals.
 struct OutputCase
 {
     long surfaces = 200;               //!< real granules whose surfaces are laid cap by cap
     double overlap_criterion = 0.003;  //!< share of a radius: contacts beyond it are counted [R]
     std::vector<BoxCase> boxes;
+    std::vector<ProbeCase> probes;
 };
 
 //! [[phase]]: what is set from `start` on; what a phase does not name stays as it was

@@ -138,6 +138,28 @@ void check_steps(io::CaseFile& file, Case const& data)
         file.mistake("time.gas_step", "is shorter than time.granule_step");
 }
 
+void check_probes(io::CaseFile& file, Case const& data)
+{
+    for (std::size_t i = 0; i < data.output.probes.size(); ++i) {
+        auto const& probe = data.output.probes[i];
+        auto const key = [&](char const* part) { return fmt::format("output.probe[{}].{}", i, part); };
+        if (file.wrong(key("position")) || file.wrong(key("from")) || file.wrong(key("to"))) continue;
+        for (long k = 0; k < probe.points; ++k) {
+            Vec3 const x = probe.at(k);
+            if (data.chamber.inside(x)) continue;
+            auto const where = where_in_bodies(data.chamber, x);
+            if (probe.points < 2)
+                file.mistake(key("position"), "is " + where);
+            else
+                file.mistake(
+                    key(k + 1 == probe.points ? "to" : "from"),
+                    fmt::format("point {} of the line, ({:.4g}, {:.4g}, {:.4g}) m, is {}", k, x.x, x.y, x.z, where),
+                    {"let the line begin and end in the open"});
+            break;
+        }
+    }
+}
+
 void check_nozzles(io::CaseFile& file, Case const& data)
 {
     bool const repeats = data.periodic[0] || data.periodic[1] || data.periodic[2];
@@ -211,6 +233,7 @@ void cross_check(io::CaseFile& file, Case const& data, Purpose purpose, std::vec
             if (!data.contact.hard()) check_steps(file, data);
         }
         check_nozzles(file, data);
+        check_probes(file, data);
         check_against_bodies(file, data);
     }
     if (!by_velocity || chamber) check_drying(file, data);

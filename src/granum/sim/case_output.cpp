@@ -28,14 +28,10 @@ void read_time(io::CaseFile& file, Case& data, Purpose purpose)
                                "time of process between checkpoints, beside the wall time", io::positive);
 }
 
-void read_output(io::CaseFile& file, Case& data)
+namespace
 {
-    auto& output = data.output;
-    output.overlap_criterion =
-        file.quantity("output.overlap_criterion", Dimension::one, output.overlap_criterion,
-                      "overlaps above this share of a radius are counted", {.low = 0, .high = 1, .low_allowed = false});
-    output.surfaces = file.integer("output.surfaces", output.surfaces,
-                                   "real granules whose surfaces are laid cap by cap; 0: none", 0, 100000);
+void read_boxes(io::CaseFile& file, Case& data)
+{
     std::set<std::string> names;
     int const count = file.count("output.box");
     for (int i = 0; i < count; ++i) {
@@ -45,8 +41,48 @@ void read_output(io::CaseFile& file, Case& data)
         check_column_name(file, key + "name", box.name);
         if (!names.insert(box.name).second) file.mistake(key + "name", "is that of another box too");
         box.region = read_box(file, key, data.chamber, "corner of the box to look into");
-        output.boxes.push_back(std::move(box));
+        data.output.boxes.push_back(std::move(box));
     }
+}
+
+void read_probes(io::CaseFile& file, Case& data)
+{
+    std::set<std::string> names;
+    int const count = file.count("output.probe");
+    for (int i = 0; i < count; ++i) {
+        auto const key = fmt::format("output.probe[{}].", i);
+        ProbeCase probe;
+        probe.name = file.words(key + "name", fmt::format("probe-{}", i), "in probes.csv");
+        check_column_name(file, key + "name", probe.name);
+        if (!names.insert(probe.name).second) file.mistake(key + "name", "is that of another probe too");
+        bool const line = file.has(key + "from") || file.has(key + "to");
+        if (line) {
+            probe.from = file.vector(key + "from", Dimension::length, std::nullopt, "where the line begins");
+            probe.to = file.vector(key + "to", Dimension::length, std::nullopt, "where the line ends");
+            probe.points = file.integer(key + "points", 20, "along the line, both ends among them", 2, 1000);
+            if (file.has(key + "position"))
+                file.mistake(key + "position", "and a line cannot both be given", {"leave out from and to"});
+        } else {
+            probe.from = probe.to = file.vector(key + "position", Dimension::length, std::nullopt, "where to look");
+            if (file.has(key + "points")) file.mistake(key + "points", "belongs to a line", {"add from and to"});
+        }
+        data.output.probes.push_back(std::move(probe));
+    }
+    if (count > 0 && !data.gas.present)
+        file.mistake("output.probe[0]", "looks at the gas, and there is none", {"[[output.box]] looks at granules"});
+}
+}
+
+void read_output(io::CaseFile& file, Case& data)
+{
+    auto& output = data.output;
+    output.overlap_criterion =
+        file.quantity("output.overlap_criterion", Dimension::one, output.overlap_criterion,
+                      "overlaps above this share of a radius are counted", {.low = 0, .high = 1, .low_allowed = false});
+    output.surfaces = file.integer("output.surfaces", output.surfaces,
+                                   "real granules whose surfaces are laid cap by cap; 0: none", 0, 100000);
+    read_boxes(file, data);
+    read_probes(file, data);
 }
 
 void check_column_name(io::CaseFile& file, std::string const& key, std::string const& name)

@@ -192,6 +192,7 @@ Output::Output(std::string folder, Simulation& simulation, io::Sections const* s
       root_(simulation.comm().root()),
       walls_(folder_, simulation),
       boxes_(folder_, simulation),
+      probes_(folder_, simulation),
       granules_(folder_ + "/granules.pvd"),
       droplets_(folder_ + "/droplets.pvd"),
       gas_(folder_ + "/gas.pvd"),
@@ -265,6 +266,7 @@ void Output::sample()
                    simulation_.traffic()};
     walls_.sample();
     boxes_.sample();
+    probes_.sample();
     simulation_.mover().begin_interval();
     if (!root_) return;
     samples_.push_back(s);

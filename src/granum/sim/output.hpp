@@ -10,6 +10,7 @@
 #include "granum/product/all.hpp"
 #include "granum/sim/bed_statistics.hpp"
 #include "granum/sim/box_output.hpp"
+#include "granum/sim/probe_output.hpp"
 #include "granum/sim/simulation.hpp"
 #include "granum/sim/surface_sample.hpp"
 #include "granum/sim/wall_output.hpp"
@@ -58,6 +59,7 @@ class Output
     //! @}
     io::GranuleView const& last_view() const { return view_; }
     std::vector<BoxContent> const& boxes() const { return boxes_.last(); }  //!< as the case has them
+    ProbeOutput const& probes() const { return probes_; }
 
   private:
     void go_on(io::Sections const& saved);
@@ -72,6 +74,7 @@ class Output
     std::unique_ptr<io::RowLog> event_log_;  //!< the same rows in our own format, from which events.h5 can be made anew
     WallOutput walls_;
     BoxOutput boxes_;
+    ProbeOutput probes_;
     io::Collection granules_, droplets_, gas_;
     std::vector<Sample> samples_;
     std::vector<product::LayerSum> layers_;

@@ -29,6 +29,7 @@ io::Sections Output::save() const
                      io::section_of("output.gas", letters(gas_.entries()))};
     walls_.save(out);
     boxes_.save(out);
+    probes_.save(out);
     if (event_log_) out.push_back(io::section_of("output.events", std::vector<io::RowLog::Mark>{event_log_->mark()}));
     return out;
 }
@@ -46,6 +47,7 @@ void Output::go_on(io::Sections const& saved)
     gas_.go_on(text_of(find("output.gas")));
     walls_.go_on(saved);
     boxes_.go_on(saved);
+    probes_.go_on(saved);
     if (event_log_) {
         event_log_->go_on(io::values_of<io::RowLog::Mark>(find("output.events")).at(0),
                           [&](std::span<double const> row) {

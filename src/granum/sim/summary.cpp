@@ -138,6 +138,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                           {"fed_parcels", last.traffic.fed},
                           {"discharged_kg", last.traffic.left_mass},
                           {"discharged_parcels", last.traffic.left}};
+    if (auto probes = output.probes().summary(third); !probes.is_null()) out["probes"] = std::move(probes);
     if (simulation.has_gas()) {
         auto const& steady = simulation.steady();
         out["gas"]["cells"] = data.gas.cells[0] * data.gas.cells[1] * data.gas.cells[2];

@@ -113,33 +113,29 @@ WallOutput::WallOutput(std::string folder, Simulation& simulation)
         for (auto const* what : {"force", "torque"})
             for (char const axis : {'x', 'y', 'z'})
                 columns.push_back({fmt::format("{}_{}_{}", body.name, what, axis), what[0] == 'f' ? "N" : "N m"});
-    width_ = columns.size();
-    loads_ = std::make_unique<io::SeriesWriter>(folder_ + "/walls.csv", columns);
+    loads_ = {folder_ + "/walls.csv", "walls", columns};
 }
 
 void WallOutput::sample()
 {
     auto const loads = simulation_.mover().wall_loads();
-    if (!loads_) return;
+    if (!loads_.writes()) return;
     std::vector<double> row{simulation_.time()};
     for (auto const& [force, torque] : loads)
         row.insert(row.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
-    loads_->append(row);
-    rows_.insert(rows_.end(), row.begin(), row.end());
+    loads_.append(row);
 }
 
 void WallOutput::save(io::Sections& out) const
 {
     std::string const& entries = surfaces_.entries();
-    out.push_back(io::section_of("output.walls", rows_));
+    loads_.save(out);
     out.push_back(io::section_of("output.wall_surfaces", std::vector<char>(entries.begin(), entries.end())));
 }
 
 void WallOutput::go_on(io::Sections const& saved)
 {
-    rows_ = io::values_of<double>(io::find_section(saved, "output.walls"));
-    for (std::size_t at = 0; at + width_ <= rows_.size(); at += width_)
-        loads_->append(std::span<double const>(rows_).subspan(at, width_));
+    loads_.go_on(saved);
     auto const entries = io::values_of<char>(io::find_section(saved, "output.wall_surfaces"));
     if (!entries.empty()) surfaces_.go_on({entries.begin(), entries.end()});
 }
@@ -147,7 +143,7 @@ void WallOutput::go_on(io::Sections const& saved)
 void WallOutput::picture(int number)
 {
     auto const& own = simulation_.data().walls;
-    if (!loads_ || own.empty() || (number > 0 && !moving_)) return;
+    if (!loads_.writes() || own.empty() || (number > 0 && !moving_)) return;
     auto const& mover = simulation_.mover();
     std::size_t const first = mover.settings().walls.size() - own.size();  // those of the chamber come before
     io::Surface all;

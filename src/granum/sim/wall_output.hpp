@@ -1,12 +1,10 @@
 // What the walls of a run met and where they were: walls.csv, and their surfaces for ParaView.
 #pragma once
 
-#include "granum/io/csv.hpp"
-#include "granum/io/sections.hpp"
 #include "granum/io/vtk.hpp"
+#include "granum/sim/kept_series.hpp"
 #include "granum/sim/simulation.hpp"
 
-#include <memory>
 #include <string>
 
 namespace granum::sim
@@ -35,10 +33,8 @@ class WallOutput
   private:
     std::string folder_;
     Simulation& simulation_;
-    std::unique_ptr<io::SeriesWriter> loads_;
+    KeptSeries loads_;
     io::Collection surfaces_;
-    std::vector<double> rows_;  //!< of walls.csv, one after the other
-    std::size_t width_ = 0;
     bool moving_ = false;
 };
 }
