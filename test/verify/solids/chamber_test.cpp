@@ -136,13 +136,13 @@ TEST(ApparatusOfSolids, lets_through_every_plane_what_enters)
         double open = 0, worst = 0;
         grid::for_each_cell(simulation.grid(),
                             [&](int, int, int, grid::Index c) { open += simulation.grid().open_volume[c]; });
-        verify::relative("G01", "cone, column and STL bodies " + on + ": open volume of the cells, m3", volume,
+        verify::relative("S01", "cone, column and STL bodies " + on + ": open volume of the cells, m3", volume,
                          comm.sum(open), 1e-4);
         for (int step = 0; step < 200; ++step) {
             simulation.step(0.02);
             if (step % 20 == 19) worst = std::max(worst, off_by_plane(simulation, comm));
         }
-        verify::below("G01", "the same, laminar: flow through every plane of faces against the inlet, share off " + on,
+        verify::below("S01", "the same, laminar: flow through every plane of faces against the inlet, share off " + on,
                       1e-8, worst);
         EXPECT_LT(std::abs(simulation.gas().velocity[2][simulation.grid().at(0, 0, 0)]), 10);
     }
@@ -178,8 +178,8 @@ duration = "1 s"
         }
         auto const what = fmt::format("600 granules about the bodies for 0.4 s on {} rank{}", comm.size(),
                                       comm.size() > 1 ? "s" : "");
-        verify::absolute("G01", what + ": fewest of them", 600, static_cast<double>(fewest), 0);
-        verify::absolute("G01", what + ": centres seen in a wall", 0, static_cast<double>(comm.sum(outside)), 0);
+        verify::absolute("S01", what + ": fewest of them", 600, static_cast<double>(fewest), 0);
+        verify::absolute("S01", what + ": centres seen in a wall", 0, static_cast<double>(comm.sum(outside)), 0);
     }
 }
 }
