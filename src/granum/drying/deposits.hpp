@@ -2,6 +2,7 @@
 #pragma once
 
 #include "granum/drying/event.hpp"
+#include "granum/law/deposit/crystallisation.hpp"
 #include "granum/particle/attachment.hpp"
 
 #include <cstring>
@@ -19,6 +20,7 @@ struct Deposit
     double water_at_impact = 0;    //!< kg
     double heat = 0;               //!< J that a melt has to give until it is solid; not in the granule's enthalpy
     double base_radius = 0;        //!< of one cap, m; pinned while it dries
+    law::deposit::Crystals crystals{};  //!< in one cap
     double time = 0;               //!< s on the granule
     double gas_temperature = 0, gas_humidity = 0, drying_potential = 0, granule_temperature = 0,
            slip = 0;  //!< integrals over time

@@ -11,6 +11,11 @@ namespace granum::drying
 {
 namespace air = material;
 
+namespace
+{
+constexpr double unlimited = 1e30;  // solubility of what does not crystallise at once
+}
+
 double Drying::coverage(std::vector<Deposit> const& deposits, double count, double diameter)
 {
     double area = 0;
@@ -23,8 +28,15 @@ Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, d
 {
     Liquid const& liquid = settings_.liquid;
     double const moisture = deposit.water / deposit.solute;
+    // What may be above saturation has the activity of what is dissolved in it.
+    double const dissolved = deposit.solute - deposit.weight * deposit.crystals.mass;
+    bool const limited = std::holds_alternative<law::deposit::AtSaturation>(settings_.crystallisation);
     law::deposit::Stage const stage{
-        .activity = law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation),
+        .activity = limited || liquid.solubility == 0
+                        ? law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass,
+                                                       liquid.dissociation)
+                        : law::droplet::water_activity(deposit.water / dissolved, unlimited, liquid.molar_mass,
+                                                       liquid.dissociation),
         .moisture = moisture,
         .equilibrium = settings_.equilibrium_moisture,
         .relative_humidity = relative_humidity,
@@ -125,6 +137,13 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter) cons
     double const foot = math::pi * deposit.base_radius * deposit.base_radius;
     event.mean_flux =
         std::max(deposit.water_at_impact - dry_water(deposit.solute), 0.0) / (deposit.weight * foot * time);
+    auto const& crystals = deposit.crystals;
+    event.supersaturation = crystals.supersaturation;
+    event.crystals = crystals.count;
+    if (auto const* law = std::get_if<law::deposit::NucleationGrowth>(&settings_.crystallisation);
+        law && crystals.count > 0)
+        event.crystal_size =
+            std::cbrt(deposit.solute / deposit.weight / (settings_.liquid.solids_density * law->shape * crystals.count));
     event.porosity = settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
     return event;
 }
@@ -133,6 +152,8 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
                      std::vector<double>& evaporated, std::vector<Event>& events) const
 {
     Liquid const& liquid = settings_.liquid;
+    auto const* const crystals =
+        liquid.solubility > 0 ? std::get_if<law::deposit::NucleationGrowth>(&settings_.crystallisation) : nullptr;
     evaporated.assign(granules.owned, 0.0);
     Rates rates;
     for (std::size_t row = 0; row < granules.owned; ++row) {
@@ -165,6 +186,14 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
             deposit.heat -= change.heat;
             lost += change.water;
             granules.enthalpy[row] += change.heat;
+            if (crystals && !change.ends)
+                crystals->advance(deposit.crystals,
+                                  {.water = deposit.water / deposit.weight,
+                                   .solids = deposit.solute / deposit.weight,
+                                   .foot = math::pi * deposit.base_radius * deposit.base_radius,
+                                   .solubility = liquid.solubility,
+                                   .solids_density = liquid.solids_density},
+                                  h);
             if (!change.ends) {
                 if (kept != k) open[kept] = deposit;
                 ++kept;

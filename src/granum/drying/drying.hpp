@@ -41,6 +41,7 @@ struct Settings
     Liquid liquid;
     law::deposit::AnyStages stages{};
     law::deposit::AnySolidification solidification{};
+    law::deposit::AnyCrystallisation crystallisation{};
     double equilibrium_moisture = 0;  //!< kg/kg that stays in the layer
     double end_moisture = 0.01;       //!< of the feed's moisture, above that of equilibrium
     double film_coverage = 0.9;       //!< above it the deposits of a granule dry as one film

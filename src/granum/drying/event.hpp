@@ -24,6 +24,7 @@ struct Event
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
     double footprint, granule_diameter, per_granule;
+    double supersaturation, crystals, crystal_size;
 };
 
 inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_columns{{
@@ -72,5 +73,8 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"footprint", "m", "radius of the base of one deposit"},
     {"granule_diameter", "m", "of a real granule when the deposit was dry"},
     {"per_granule", "1", "deposits per real granule of the parcel"},
+    {"supersaturation", "1", "largest, dissolved over what the water can hold; 0 without drying.crystallisation"},
+    {"crystals", "1", "in one real deposit; 0 without drying.crystallisation"},
+    {"crystal_size", "m", "of crystals of equal size that hold all solids; 0 without drying.crystallisation"},
 }};
 }

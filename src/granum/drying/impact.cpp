@@ -36,6 +36,7 @@ void join(std::vector<Deposit>& open, Deposit const& fresh, double draw, Arrival
     both.weight = caps;
     both.water += below.water, both.solute += below.solute, both.water_at_impact += below.water;
     both.heat += below.heat;
+    both.crystals = below.crystals;
     // The wider of both contact lines, or that of a cap at rest of both.
     double const volume = (both.water + both.solute) / caps / droplet.density;
     both.base_radius =

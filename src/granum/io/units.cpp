@@ -51,6 +51,7 @@ constexpr std::array rows{
     Row{Dimension::energy, "an energy", "J", "1 J", "J"},
     Row{Dimension::force, "a force", "N", "1 N", "N"},
     Row{Dimension::count_rate, "a rate", "1/s", "20000 1/s", "1/s"},
+    Row{Dimension::count_flux, "a number per area and time", "1/m2/s", "1e20 1/m2/s", "1/m2/s"},
     Row{Dimension::diffusivity, "a diffusivity", "m2/s", "2.5e-5 m2/s", "m2/s"},
     Row{Dimension::expansion, "a thermal expansion", "1/K", "0.0034 1/K", "1/K"},
     Row{Dimension::heat_transfer, "a heat transfer coefficient", "W/m2/K", "5 W/m2/K", "W/m2/K"},

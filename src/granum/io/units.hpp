@@ -37,6 +37,7 @@ enum class Dimension
     energy,
     force,
     count_rate,
+    count_flux,
     diffusivity,
     expansion,
     heat_transfer,

@@ -344,6 +344,8 @@ drying::Settings drying_settings(Case const& data)
                 law = {.a = data.drying.rea[0], .b = data.drying.rea[1], .c = data.drying.rea[2]};
         },
         settings.stages);
+    settings.crystallisation = named<law::deposit::Crystallisation>(data.drying.crystallisation);
+    if (auto* law = std::get_if<law::deposit::NucleationGrowth>(&settings.crystallisation)) *law = data.drying.crystals;
     settings.equilibrium_moisture = data.drying.equilibrium_moisture;
     settings.film_coverage = data.drying.film_coverage;
     settings.end_moisture = data.drying.end_moisture;

@@ -3,6 +3,7 @@
 
 #include "granum/geometry/body.hpp"
 #include "granum/geometry/chamber.hpp"
+#include "granum/law/deposit/crystallisation.hpp"
 #include "granum/law/impact/splash.hpp"
 #include "granum/math/constants.hpp"
 #include "granum/particle/sizes.hpp"
@@ -318,6 +319,8 @@ struct DryingCase
     std::string deposit = "combined";  //!< "cap", "boundary-layer" or "combined"
     std::string stages = "falling-rate";
     std::string solidification = "gas-and-granule";
+    std::string crystallisation = "at-saturation";
+    law::deposit::NucleationGrowth crystals;
     double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none
     double falling_exponent = 1;
     std::array<double, 3> rea{0.998, 1.405, 0.930};  //!< a, b, c of the reaction engineering approach

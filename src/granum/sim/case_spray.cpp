@@ -239,6 +239,32 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     if (whole && nozzles == 0) file.mistake("spray", "has no nozzle", {"add a [[nozzle]] with its position"});
 }
 
+namespace
+{
+void read_crystallisation(io::CaseFile& file, Case& data)
+{
+    auto& drying = data.drying;
+    drying.crystallisation = file.name("drying.crystallisation", drying.crystallisation, "law",
+                                       laws_for("drying.crystallisation"), "a law of crystallisation");
+    bool const at_saturation = drying.crystallisation == law::deposit::AtSaturation::card.name;
+    if (!at_saturation && data.spray.present && data.spray.solubility == 0)
+        file.mistake("drying.crystallisation", "needs a solution",
+                     {"spray.solubility says how much of the solids water can hold"});
+    auto& law = drying.crystals;
+    law.nucleation = file.quantity("drying.nucleation", Dimension::count_flux, law.nucleation,
+                                   "k of k (S - 1)^b crystals born on the base", io::positive);
+    law.nucleation_order = file.quantity("drying.nucleation_order", Dimension::one, law.nucleation_order, "b", io::positive);
+    law.growth = file.quantity("drying.growth", Dimension::velocity, law.growth,
+                               "g of g (S - 1)^c by which the length of crystals grows", io::positive);
+    law.growth_order = file.quantity("drying.growth_order", Dimension::one, law.growth_order, "c", io::positive);
+    law.shape = file.quantity("drying.crystal_shape", Dimension::one, law.shape,
+                              "volume of a crystal over the cube of its length", io::positive);
+    for (auto const* name : {"nucleation", "nucleation_order", "growth", "growth_order", "crystal_shape"})
+        if (auto const key = std::string("drying.") + name; at_saturation && file.has(key))
+            file.mistake(key, "belongs to drying.crystallisation = \"nucleation-growth\"");
+}
+}
+
 void read_process(io::CaseFile& file, Case& data)
 {
     data.drying.deposit =
@@ -254,6 +280,7 @@ void read_process(io::CaseFile& file, Case& data)
     for (auto const* name : {"deposit", "stages", "equilibrium_moisture", "critical_moisture", "film_coverage"})
         if (auto const key = std::string("drying.") + name; melt && file.has(key))
             file.mistake(key, "has no meaning for a melt");
+    read_crystallisation(file, data);
     bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
     drying.critical_moisture =
         file.quantity("drying.critical_moisture", Dimension::one, 0.0,

@@ -5,6 +5,7 @@
 #include "granum/law/conduction/all.hpp"
 #include "granum/law/contact/all.hpp"
 #include "granum/law/deposit/all.hpp"
+#include "granum/law/deposit/crystallisation.hpp"
 #include "granum/law/deposit/solidification.hpp"
 #include "granum/law/deposit/stages.hpp"
 #include "granum/law/dispersion/all.hpp"
@@ -63,6 +64,8 @@ std::vector<LawFamily> const& law_families()
         family<law::deposit::Stages>("deposit-stages", "drying.stages", "what slows a deposit as it dries"),
         family<law::deposit::Solidification>("solidification", "drying.solidification",
                                              "heat that leaves the deposit of a melt"),
+        family<law::deposit::Crystallisation>("crystallisation", "drying.crystallisation",
+                                              "crystals in the deposit of a solution"),
         family<product::All>("porosity", "product.porosity_model",
                              "porosity of the layer from the history of its deposits"),
     };

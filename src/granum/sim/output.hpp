@@ -39,6 +39,9 @@ class Output
     //! from there: what was written later is taken back. Throws base::IoError.
     Output(std::string folder, Simulation& simulation, io::Sections const* saved = nullptr);
 
+    //! Throws base::IoError where `saved` is of a version whose records are others: before any file is touched.
+    static void check(io::Sections const& saved);
+
     void sample();            //!< a row of the time series
     void look_at_granules();  //!< brings `last_view` up to date without writing anything
     void picture();           //!< ParaView files and the snapshot for the report

@@ -1,6 +1,9 @@
 // What the files of a run held at a checkpoint, and how they go on from there.
 #include "granum/sim/output.hpp"
 
+#include "granum/base/error.hpp"
+
+#include <algorithm>
 #include <cstring>
 
 namespace granum::sim
@@ -16,12 +19,30 @@ std::string text_of(io::Section const& section)
     auto const chars = io::values_of<char>(section);
     return {chars.begin(), chars.end()};
 }
+
+constexpr char const* layout = "output.layout";
+
+//! Of what a checkpoint holds as plain records.
+std::vector<std::uint64_t> record_sizes()
+{
+    return {sizeof(Sample), sizeof(product::LayerSum), sizeof(drying::Deposit), sizeof(drying::Event),
+            sizeof(spray::Droplet)};
+}
+}
+
+void Output::check(io::Sections const& saved)
+{
+    auto const found = std::find_if(saved.begin(), saved.end(), [](auto const& one) { return one.name == layout; });
+    if (found == saved.end() || io::values_of<std::uint64_t>(*found) != record_sizes())
+        throw base::IoError("the run was begun by another version of Granum, whose records are others: go on with that "
+                            "one, or begin anew with --fresh");
 }
 
 io::Sections Output::save() const
 {
     if (!root_) return {};
-    io::Sections out{io::section_of("output.samples", samples_),
+    io::Sections out{io::section_of(layout, record_sizes()),
+                     io::section_of("output.samples", samples_),
                      io::section_of("output.layers", layers_),
                      io::section_of("output.counts", std::vector<long>{event_count_, pictures_}),
                      io::section_of("output.granules", letters(granules_.entries())),

@@ -202,8 +202,9 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
     }
     comm.barrier();
 
-    Simulation simulation(data, comm, found ? &*found : nullptr);
     io::Sections const written = found && root ? found->read(0) : io::Sections{};
+    if (found && root) Output::check(written);
+    Simulation simulation(data, comm, found ? &*found : nullptr);
     Output output(options.folder, simulation, found ? &written : nullptr);
     Schedule schedule;
     if (found) {

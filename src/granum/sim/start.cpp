@@ -187,6 +187,8 @@ void Simulation::start_deposits()
         old.gas_humidity = age * balance_.outlet_humidity;
         old.drying_potential = age * potential;
         old.slip = age * speed;
+        // What its water cannot hold is crystalline already.
+        old.crystals.mass = std::max(0.0, old.solute - old.water * spray.solubility) / old.weight;
         old.record.initial = 1;
         old.record.t_deposit = -age;
         old.record.droplet_diameter = median * size;

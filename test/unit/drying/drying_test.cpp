@@ -395,6 +395,21 @@ TEST(Event, tells_of_each_deposit_what_it_really_met)
     }
 }
 
+TEST(Event, tells_the_crystals_of_its_deposit)
+{
+    Rain rain(0.63);
+    rain.bed.settings.crystallisation = law::deposit::NucleationGrowth{};
+    for (int n = 0; n < 4000; ++n) rain.step(n, 1e-3, n < 1000);
+    ASSERT_GT(rain.bed.events.size(), 1000u);
+    for (auto const& e : rain.bed.events) {
+        EXPECT_GT(e.supersaturation, 1.05);
+        EXPECT_GT(e.crystals, 1);
+        double const solids = e.solids / e.weight;
+        EXPECT_NEAR(e.crystals * 0.5 * rain.bed.settings.liquid.solids_density * std::pow(e.crystal_size, 3), solids,
+                    1e-9 * solids);
+    }
+}
+
 TEST(Event, of_a_droplet_that_arrives_dry_tells_the_gas_it_arrived_in)
 {
     Bed bed(1);
