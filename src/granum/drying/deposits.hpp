@@ -16,12 +16,12 @@ using particle::Id;
 struct Deposit
 {
     double weight = 0;
-    double water = 0, solute = 0;  //!< kg, all caps together
-    double water_at_impact = 0;    //!< kg
-    double heat = 0;               //!< J that a melt has to give until it is solid; not in the granule's enthalpy
-    double base_radius = 0;        //!< of one cap, m; pinned while it dries
+    double water = 0, solute = 0;       //!< kg, all caps together
+    double water_at_impact = 0;         //!< kg
+    double heat = 0;                    //!< J that a melt has to give until it is solid; not in the granule's enthalpy
+    double base_radius = 0;             //!< of one cap, m; pinned while it dries
     law::deposit::Crystals crystals{};  //!< in one cap
-    double time = 0;               //!< s on the granule
+    double time = 0;                    //!< s on the granule
     double gas_temperature = 0, gas_humidity = 0, drying_potential = 0, granule_temperature = 0,
            slip = 0;  //!< integrals over time
     Event record{};   //!< impact part filled

@@ -32,11 +32,11 @@ Drying::Limits Drying::limits(Deposit const& deposit, law::deposit::Film film, d
     double const dissolved = deposit.solute - deposit.weight * deposit.crystals.mass;
     bool const limited = std::holds_alternative<law::deposit::AtSaturation>(settings_.crystallisation);
     law::deposit::Stage const stage{
-        .activity = limited || liquid.solubility == 0
-                        ? law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass,
-                                                       liquid.dissociation)
-                        : law::droplet::water_activity(deposit.water / dissolved, unlimited, liquid.molar_mass,
-                                                       liquid.dissociation),
+        .activity =
+            limited || liquid.solubility == 0
+                ? law::droplet::water_activity(moisture, liquid.solubility, liquid.molar_mass, liquid.dissociation)
+                : law::droplet::water_activity(deposit.water / dissolved, unlimited, liquid.molar_mass,
+                                               liquid.dissociation),
         .moisture = moisture,
         .equilibrium = settings_.equilibrium_moisture,
         .relative_humidity = relative_humidity,
@@ -142,8 +142,8 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter) cons
     event.crystals = crystals.count;
     if (auto const* law = std::get_if<law::deposit::NucleationGrowth>(&settings_.crystallisation);
         law && crystals.count > 0)
-        event.crystal_size =
-            std::cbrt(deposit.solute / deposit.weight / (settings_.liquid.solids_density * law->shape * crystals.count));
+        event.crystal_size = std::cbrt(deposit.solute / deposit.weight /
+                                       (settings_.liquid.solids_density * law->shape * crystals.count));
     event.porosity = settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
     return event;
 }

@@ -253,7 +253,8 @@ void read_crystallisation(io::CaseFile& file, Case& data)
     auto& law = drying.crystals;
     law.nucleation = file.quantity("drying.nucleation", Dimension::count_flux, law.nucleation,
                                    "k of k (S - 1)^b crystals born on the base", io::positive);
-    law.nucleation_order = file.quantity("drying.nucleation_order", Dimension::one, law.nucleation_order, "b", io::positive);
+    law.nucleation_order =
+        file.quantity("drying.nucleation_order", Dimension::one, law.nucleation_order, "b", io::positive);
     law.growth = file.quantity("drying.growth", Dimension::velocity, law.growth,
                                "g of g (S - 1)^c by which the length of crystals grows", io::positive);
     law.growth_order = file.quantity("drying.growth_order", Dimension::one, law.growth_order, "c", io::positive);

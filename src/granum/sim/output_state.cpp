@@ -34,8 +34,9 @@ void Output::check(io::Sections const& saved)
 {
     auto const found = std::find_if(saved.begin(), saved.end(), [](auto const& one) { return one.name == layout; });
     if (found == saved.end() || io::values_of<std::uint64_t>(*found) != record_sizes())
-        throw base::IoError("the run was begun by another version of Granum, whose records are others: go on with that "
-                            "one, or begin anew with --fresh");
+        throw base::IoError(
+            "the run was begun by another version of Granum, whose records are others: go on with that "
+            "one, or begin anew with --fresh");
 }
 
 io::Sections Output::save() const

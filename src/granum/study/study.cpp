@@ -3,6 +3,7 @@
 #include "granum/base/error.hpp"
 #include "granum/io/case_edit.hpp"
 #include "granum/io/case_file.hpp"
+#include "granum/io/folder_lock.hpp"
 #include "granum/io/summary_file.hpp"
 #include "granum/io/text_file.hpp"
 #include "granum/sim/case_reader.hpp"
@@ -108,8 +109,23 @@ std::optional<double> next_end(Study const& study, map::Window const& window)
     return std::max(end, window.to + 0.2 * study.least);
 }
 
-std::vector<Outcome> run(Study const& study, std::string const& folder, Runner const& runner,
-                         std::function<void(std::string const&)> const& said)
+namespace
+{
+//! The right to work at a point, or nothing where another process has it.
+std::unique_ptr<io::FolderLock> claimed(std::string const& folder, Point const& point)
+{
+    auto const place = fs::path(folder) / "cases" / "claims" / point.name;
+    fs::create_directories(place);
+    try {
+        return std::make_unique<io::FolderLock>(place.string(), 0);
+    } catch (base::IoError const&) {
+        return nullptr;
+    }
+}
+}
+
+Campaign run(Study const& study, std::string const& folder, Runner const& runner,
+             std::function<void(std::string const&)> const& said)
 {
     fs::create_directories(fs::path(folder) / "cases");
     // All cases first: what is wrong with the last must not wait for the runs before it.
@@ -119,9 +135,11 @@ std::vector<Outcome> run(Study const& study, std::string const& folder, Runner c
         io::replace_text(files.back(), case_of(study, point));
         sim::read_case(files.back());
     }
-    std::vector<Outcome> out;
+    Campaign out;
     for (std::size_t k = 0; k < study.points.size(); ++k) {
         auto const& point = study.points[k];
+        auto const claim = claimed(folder, point);
+        if (!claim) continue;
         auto const place = (fs::path(folder) / point.name).string();
         auto const done = [&] {
             return fs::exists(fs::path(place) / "summary.json") && fs::exists(fs::path(place) / "events.h5");
@@ -131,15 +149,18 @@ std::vector<Outcome> run(Study const& study, std::string const& folder, Runner c
         while (until) {
             said(fmt::format("{}: to {:.3g} s", point.name, *until));
             int const status = runner(files[k], place, *until);
-            if (status == 130) return out;
+            if (status == 130) {
+                out.stopped = true;
+                return out;
+            }
             if (status != 0) throw base::NumericsError(fmt::format("{}: granum run ended with {}", place, status));
             until = next_end(study, map::read_deposits(place).window);
         }
-        out.push_back(outcome_of(point, place));
-        auto const& window = out.back().deposits.window;
-        out.back().enough = window.settled && window.error <= study.error && window.to - window.from >= study.least;
+        auto& outcome = out.outcomes.emplace_back(outcome_of(point, place));
+        auto const& window = outcome.deposits.window;
+        outcome.enough = window.settled && window.error <= study.error && window.to - window.from >= study.least;
         said(fmt::format("{}: {:.3g} to {:.3g} s, log10 of the drying time {:.4f} +- {:.4f}{}", point.name, window.from,
-                         window.to, window.mean, window.error, out.back().enough ? "" : " (NOT as good as asked)"));
+                         window.to, window.mean, window.error, outcome.enough ? "" : " (NOT as good as asked)"));
     }
     return out;
 }

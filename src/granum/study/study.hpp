@@ -53,10 +53,17 @@ struct Outcome
     double solids_error = 0, water_error = 0;  //!< of the ledgers
 };
 
-//! Runs all points in `folder`, in their order. A point that stops (status 130) ends the campaign with what is there.
-//! `said` receives a line now and then. Throws base::Error where a run fails.
-std::vector<Outcome> run(Study const& study, std::string const& folder, Runner const& runner,
-                         std::function<void(std::string const&)> const& said);
+struct Campaign
+{
+    std::vector<Outcome> outcomes;  //!< of the points that are done, in their order
+    bool stopped = false;           //!< a run was asked to stop
+};
+
+//! Runs the points in `folder`, in their order; those that another process is at are left to it. A point that stops
+//! (status 130) ends the campaign with what is there. `said` receives a line now and then. Throws base::Error where a
+//! run fails.
+Campaign run(Study const& study, std::string const& folder, Runner const& runner,
+             std::function<void(std::string const&)> const& said);
 
 //! Until which simulated time a run is to go on, given its window; empty: it need not.
 std::optional<double> next_end(Study const& study, map::Window const& window);

@@ -25,7 +25,8 @@ TEST(Crystals, of_constant_birth_and_growth_have_the_moments_of_the_closed_form)
         Crystals crystals;
         double const t = 0.4;
         for (int n = 0; n < steps; ++n)
-            law.advance(crystals, {.water = 1e-11, .solids = 1, .foot = foot, .solubility = 0.63, .solids_density = 1440},
+            law.advance(crystals,
+                        {.water = 1e-11, .solids = 1, .foot = foot, .solubility = 0.63, .solids_density = 1440},
                         t / steps);
         double const born = 1e13 * foot, g = 2e-6;
         EXPECT_NEAR(crystals.count, born * t, 1e-9 * born * t);

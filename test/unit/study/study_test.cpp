@@ -3,6 +3,7 @@
 #include "granum/study/study.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/io/folder_lock.hpp"
 #include "granum/sim/case_reader.hpp"
 
 #include <fmt/format.h>
@@ -100,6 +101,26 @@ TEST(Study, says_what_is_wrong_with_its_file)
     auto const runner = [&](std::string const&, std::string const&, double) { return ++runs; };
     EXPECT_THROW(run(study, (folder.path / "out").string(), runner, [](std::string const&) {}), base::CaseError);
     EXPECT_EQ(runs, 0);
+}
+
+TEST(Study, leaves_points_that_another_process_is_at_to_it)
+{
+    Folder const folder;
+    auto const study =
+        read_study(folder.write("format = 1\ncase = \"lab.toml\"\n[[point]]\nname = \"A\"\n[[point]]\nname = "
+                                "\"B\"\n[[point]]\nname = \"C\"\n"));
+    auto const out = folder.path / "out";
+    fs::create_directories(out / "cases/claims/A");
+    std::optional<io::FolderLock> const other(std::in_place, (out / "cases/claims/A").string(), 0.0);
+    std::vector<std::string> runs;
+    auto const stops = [&](std::string const&, std::string const& place, double) {
+        runs.push_back(fs::path(place).filename().string());
+        return 130;
+    };
+    auto const campaign = run(study, out.string(), stops, [](std::string const&) {});
+    EXPECT_EQ(runs, std::vector<std::string>{"B"});
+    EXPECT_TRUE(campaign.stopped);
+    EXPECT_TRUE(campaign.outcomes.empty());
 }
 
 TEST(Study, lets_a_run_go_on_until_its_window_is_long_and_its_error_small)

@@ -1,5 +1,5 @@
-// Rows P25 and P26 and the reference cases g-01, g-03, g-05 and g-06: layers, how evenly they come, what is sprayed, and
-// what must leave with the air.
+// Rows P25 and P26 and the reference cases g-01, g-03, g-05 and g-06: layers, how evenly they come, what is sprayed,
+// and what must leave with the air.
 #include "verify/table.hpp"
 
 #include "granum/law/droplet/size.hpp"
@@ -107,8 +107,8 @@ TEST(Growth, of_a_batch_has_the_thickness_of_its_layer)
         if (thickness == 0) continue;
         if (name.starts_with("mono")) {
             double const porosity = name == "mono_eps0" ? 0 : 0.4, cores = 1 / 1500.0 / (pi / 6 * 1e-9);
-            double const grown = law::layer::grown_diameter(
-                1e-3, law::layer::layer_volume(rate * time / cores, solids, porosity));
+            double const grown =
+                law::layer::grown_diameter(1e-3, law::layer::layer_volume(rate * time / cores, solids, porosity));
             verify::relative("G01", fmt::format("layer on equal cores after {:.0f} s, porosity {}, m", time, porosity),
                              thickness, 0.5 * (grown - 1e-3), 1e-3);
         } else if (name == "poly_0.0006") {
@@ -156,7 +156,8 @@ TEST(Outlet, has_the_temperature_of_its_balance)
         data.spray.solids_fraction = 0;
         data.spray.temperature = table.number(row, "T_liq_C") + 273.15;
         auto const balance = sim::balance(data);
-        auto const words = fmt::format("{} degC, {} g/s of water: ", table.number(row, "T_in_C"), 1e3 * data.spray.rate);
+        auto const words =
+            fmt::format("{} degC, {} g/s of water: ", table.number(row, "T_in_C"), 1e3 * data.spray.rate);
         verify::absolute("G06", words + "outlet, degC", table.number(row, "T_out_C"),
                          balance.outlet_temperature - 273.15, 0.2);
         verify::relative("G06", words + "relative humidity there", table.number(row, "RH_out"),

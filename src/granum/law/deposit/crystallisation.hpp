@@ -1,5 +1,6 @@
-// How what is dissolved in a deposit becomes crystals: a family of two laws. The supersaturation that a deposit reaches,
-// the number of its crystals and their size are features of its event: drying faster makes more and smaller ones.
+// How what is dissolved in a deposit becomes crystals: a family of two laws. The supersaturation that a deposit
+// reaches, the number of its crystals and their size are features of its event: drying faster makes more and smaller
+// ones.
 #pragma once
 
 #include "granum/base/type_list.hpp"
@@ -44,9 +45,10 @@ struct NucleationGrowth
     static constexpr base::Card card{
         .name = "nucleation-growth",
         .title = "nucleation on the base and growth, by moments",
-        .source = "moments of the length: Randolph, Larson, Theory of Particulate Processes, 1988 (recalled); orders and "
-                  "growth rate: placeholders of this program, the rate of nucleation such that a droplet of 40 um that "
-                  "dries in 0.5 s comes to 1.3 times saturation",
+        .source =
+            "moments of the length: Randolph, Larson, Theory of Particulate Processes, 1988 (recalled); orders and "
+            "growth rate: placeholders of this program, the rate of nucleation such that a droplet of 40 um that "
+            "dries in 0.5 s comes to 1.3 times saturation",
         .valid = "solutions of one salt, crystals of one shape"};
 
     double nucleation = 3.34e22;  //!< 1/m2/s
