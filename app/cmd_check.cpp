@@ -64,7 +64,7 @@ void print_gas(sim::Case const& data, sim::Forecast const& f)
         fmt::format("{} ({} x {} x {}), {:.3g} x {:.3g} x {:.3g} mm{}", f.cells, data.gas.cells[0], data.gas.cells[1],
                     data.gas.cells[2], 1e3 * f.cell_size.x, 1e3 * f.cell_size.y, 1e3 * f.cell_size.z,
                     f.cell_over_parcel > 0 ? fmt::format("; {:.2f} parcels wide", f.cell_over_parcel) : std::string()));
-    line("gas step", fmt::format("about {:.3g} s (Courant number 0.5)", f.gas_step));
+    line("gas step", fmt::format("about {:.3g} s (Courant number 1, at most 50 granule steps)", f.gas_step));
 }
 
 int check(std::string const& path)

@@ -15,8 +15,8 @@ void add_project(CLI::App& program, Action& action)
 {
     struct Wish
     {
-        std::string folder, feed, discharge;
-        double hours = 1, sharpness = 20;
+        std::string folder, feed, discharge, nuclei;
+        double hours = 1, sharpness = 20, kept = 1;
     };
     auto* verb = program.add_subcommand("project", "size and layer after hours, from the rates of a run");
     auto wish = std::make_shared<Wish>();
@@ -27,6 +27,11 @@ void add_project(CLI::App& program, Action& action)
     verb->add_option("--discharge", wish->discharge, "size that is let through, e.g. \"0.8 mm\"; with --feed")
         ->needs(feed);
     verb->add_option("--sharpness", wish->sharpness, "of the discharge (20)")->check(CLI::Range(1.0, 1000.0));
+    auto* nuclei =
+        verb->add_option("--nuclei", wish->nuclei, "size that dust of the spray has when it stays as new granules");
+    verb->add_option("--kept", wish->kept, "share of the dust that stays (1); with --nuclei")
+        ->check(CLI::Range(0.0, 1.0))
+        ->needs(nuclei);
     verb->callback([wish, &action] {
         action = [wish] {
             if (!std::filesystem::is_directory(wish->folder))
@@ -43,7 +48,10 @@ void add_project(CLI::App& program, Action& action)
                                                option_quantity("--discharge", wish->discharge, io::Dimension::length),
                                                wish->sharpness};
             }
-            auto const result = study::project(wish->folder, wish->hours, continuous);
+            study::Nuclei born;
+            if (!wish->nuclei.empty())
+                born = {wish->kept, option_quantity("--nuclei", wish->nuclei, io::Dimension::length)};
+            auto const result = study::project(wish->folder, wish->hours, continuous, born);
             study::write(result, wish->folder);
             auto const& end = result.rows.back();
             fmt::print(

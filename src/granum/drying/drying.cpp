@@ -119,7 +119,7 @@ Drying::Change Drying::solidify(Deposit const& deposit, double sherwood, double 
         .lasts = leaving > 0 ? std::clamp(deposit.heat / leaving, 1e-9, 1.0) : 1, .heat = deposit.heat, .ends = true};
 }
 
-Event Drying::finish(Deposit const& deposit, double count, double diameter) const
+Event Drying::finish(Deposit const& deposit, double count, double diameter, double layer) const
 {
     Event event = deposit.record;
     double const time = event.drying_time = deposit.time;
@@ -145,7 +145,21 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter) cons
         event.crystal_size = std::cbrt(deposit.solute / deposit.weight /
                                        (settings_.liquid.solids_density * law->shape * crystals.count));
     event.porosity = settings_.porosity(event.mean_drying_potential, event.drying_time, event.moisture_at_impact);
+    if (settings_.pores.share > 0) {
+        auto const& liquid = settings_.liquid;
+        double const one = deposit.solute / deposit.weight / (liquid.solids_density * (1 - event.porosity));
+        double const landed = (deposit.water_at_impact + deposit.solute) / deposit.weight / liquid.density;
+        double const penetration = law::wetting::penetration_time(landed, settings_.pores);
+        event.imbibed = law::wetting::bare(layer, one / foot) * law::wetting::entered(time, penetration);
+    }
     return event;
+}
+
+double Drying::equilibrium(double granule_temperature, double gas_temperature, double vapour_fraction) const
+{
+    double const humidity = air::relative_humidity(gas_temperature, air::loading(vapour_fraction), settings_.pressure) *
+                            air::saturation_pressure(gas_temperature) / air::saturation_pressure(granule_temperature);
+    return std::visit([&](auto const& law) { return law(humidity); }, settings_.sorption);
 }
 
 void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings const& seen, double dt, double now,
@@ -154,13 +168,23 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
     Liquid const& liquid = settings_.liquid;
     auto const* const crystals =
         liquid.solubility > 0 ? std::get_if<law::deposit::NucleationGrowth>(&settings_.crystallisation) : nullptr;
+    bool const sorbs = !std::holds_alternative<law::vapour::NoSorption>(settings_.sorption);
+    double const share = -std::expm1(-dt / settings_.sorption_time);
     evaporated.assign(granules.owned, 0.0);
     Rates rates;
     for (std::size_t row = 0; row < granules.owned; ++row) {
         auto& open = deposits.on(granules.id[row]);
-        if (open.empty()) continue;
         double const temperature = granules.temperature[row], diameter = granules.diameter[row];
+        if (sorbs) {
+            double const held = equilibrium(temperature, seen.temperature[row], seen.vapour_fraction[row]);
+            double const out = (granules.absorbed[row] - held * granules.core_mass[row]) * share;
+            granules.absorbed[row] -= out, granules.water[row] -= out, evaporated[row] += out;
+            granules.enthalpy[row] -= out * air::vapour_enthalpy(temperature);
+            if (open.empty()) resize_granule(granules, row);
+        }
+        if (open.empty()) continue;
         double const count = granules.count[row];
+        double const layer = granules.layer_volume[row] / (count * math::pi * diameter * diameter);
         if (!liquid.melt()) evaporation_rates(open, seen, row, temperature, diameter, count, rates);
         double lost = 0, dried_solids = 0, dried_volume = 0;
         std::size_t kept = 0;
@@ -199,23 +223,23 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
                 ++kept;
                 continue;
             }
-            Event event = finish(deposit, count, diameter);
+            Event event = finish(deposit, count, diameter, layer);
             event.granule = static_cast<double>(granules.id[row]);
             event.t_dry_end = now - dt + h;
             dried_solids += deposit.solute;
-            dried_volume += deposit.solute / (liquid.solids_density * (1 - event.porosity));
+            dried_volume += deposit.solute * (1 - event.imbibed) / (liquid.solids_density * (1 - event.porosity));
             events.push_back(event);
         }
         open.resize(kept);
-        evaporated[row] = lost;
         granules.water[row] -= lost;
         if (open.empty() && settings_.equilibrium_moisture == 0 &&
-            std::abs(granules.water[row]) < 1e-15 * granules.core_mass[row]) {
+            std::abs(granules.water[row] - granules.absorbed[row]) < 1e-15 * granules.core_mass[row]) {
             // Only rounding is left; it stays in the ledger as evaporated.
-            evaporated[row] += granules.water[row];
-            granules.water[row] = 0;
+            lost += granules.water[row] - granules.absorbed[row];
+            granules.water[row] = granules.absorbed[row];
         }
-        granules.enthalpy[row] -= evaporated[row] * air::vapour_enthalpy(temperature);
+        evaporated[row] += lost;
+        granules.enthalpy[row] -= lost * air::vapour_enthalpy(temperature);
         granules.solute[row] -= dried_solids;
         granules.layer_mass[row] += dried_solids;
         granules.layer_volume[row] += dried_volume;

@@ -14,6 +14,8 @@
 #include "granum/law/deposit/rates.hpp"
 #include "granum/law/deposit/solidification.hpp"
 #include "granum/law/deposit/stages.hpp"
+#include "granum/law/vapour/sorption.hpp"
+#include "granum/law/wetting/imbibition.hpp"
 #include "granum/particle/store.hpp"
 
 #include <functional>
@@ -42,10 +44,13 @@ struct Settings
     law::deposit::AnyStages stages{};
     law::deposit::AnySolidification solidification{};
     law::deposit::AnyCrystallisation crystallisation{};
-    double equilibrium_moisture = 0;  //!< kg/kg that stays in the layer
-    double end_moisture = 0.01;       //!< of the feed's moisture, above that of equilibrium
-    double film_coverage = 0.9;       //!< above it the deposits of a granule dry as one film
-    double pressure = 101325;         //!< Pa
+    law::wetting::Pores pores{};          //!< of the cores
+    law::vapour::AnySorption sorption{};  //!< of the cores
+    double sorption_time = 300;           //!< s in which the absorbed water comes to 1/e of its way to equilibrium
+    double equilibrium_moisture = 0;      //!< kg/kg that stays in the layer
+    double end_moisture = 0.01;           //!< of the feed's moisture, above that of equilibrium
+    double film_coverage = 0.9;           //!< above it the deposits of a granule dry as one film
+    double pressure = 101325;             //!< Pa
     //! Layer porosity of an element that met (mean local drying potential, drying time, moisture at impact).
     std::function<double(double, double, double)> porosity;
 };
@@ -85,6 +90,9 @@ class Drying
         return (settings_.end_moisture * settings_.liquid.feed_moisture + settings_.equilibrium_moisture) * solute;
     }
 
+    //! kg of water per kg of core in equilibrium with gas of this state around a granule of this temperature.
+    double equilibrium(double granule_temperature, double gas_temperature, double vapour_fraction) const;
+
     Settings const& settings() const { return settings_; }
 
   private:
@@ -107,7 +115,8 @@ class Drying
     Change evaporate(Deposit const& deposit, double rate, double dt) const;
     Change solidify(Deposit const& deposit, double sherwood, double diameter, double gas, double granule,
                     double dt) const;
-    Event finish(Deposit const& deposit, double count, double diameter) const;
+    //! @param layer mean thickness of what lies on its granule, m
+    Event finish(Deposit const& deposit, double count, double diameter, double layer) const;
 
     Settings settings_;
 };

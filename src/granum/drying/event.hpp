@@ -24,7 +24,7 @@ struct Event
     double drying_time, mean_gas_temperature, mean_gas_humidity, mean_drying_potential, mean_granule_temperature;
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
     double footprint, granule_diameter, per_granule;
-    double supersaturation, crystals, crystal_size;
+    double supersaturation, crystals, crystal_size, imbibed;
 };
 
 inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_columns{{
@@ -76,5 +76,6 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"supersaturation", "1", "largest, dissolved over what the water can hold; 0 without drying.crystallisation"},
     {"crystals", "1", "in one real deposit; 0 without drying.crystallisation"},
     {"crystal_size", "m", "of crystals of equal size that hold all solids; 0 without drying.crystallisation"},
+    {"imbibed", "1", "share of the solids that went into pores of the core; 0 without granules.pores"},
 }};
 }

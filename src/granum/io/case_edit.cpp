@@ -3,6 +3,7 @@
 #include "granum/base/error.hpp"
 #include "granum/io/case_text.hpp"
 
+#include <charconv>
 #include <sstream>
 
 namespace granum::io
@@ -102,10 +103,42 @@ void CaseEdit::merge(std::string const& path, std::string const& key)
     if (found) merge_into(inside_->table, *found);
 }
 
+namespace
+{
+//! Numbers as short as they read back the same: 0.8 instead of 0.80000000000000004. Texts stay as they are.
+std::string shortened(std::string const& text)
+{
+    std::string out;
+    char quote = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        char const c = text[at];
+        if (quote != 0 || c == '\'' || c == '"') {
+            quote = quote == 0 ? c : c == quote ? 0 : quote;
+            out += c, ++at;
+            continue;
+        }
+        auto const end = text.find_first_not_of("0123456789.e+-", at);
+        auto const number = text.substr(at, end == std::string::npos ? end : end - at);
+        double value = 0;
+        auto const read = std::from_chars(number.data(), number.data() + number.size(), value);
+        bool const whole = number.empty() || number.find('.') == std::string::npos || read.ec != std::errc() ||
+                           read.ptr != number.data() + number.size();
+        if (number.empty()) {
+            out += c, ++at;
+            continue;
+        }
+        auto const brief = fmt::format("{}", value);  // "1" would be an integer
+        out += whole ? number : brief.find_first_of(".e") == std::string::npos ? brief + ".0" : brief;
+        at += number.size();
+    }
+    return out;
+}
+}
+
 std::string CaseEdit::text(std::string const& remark) const
 {
     std::ostringstream out;
-    out << "# " << remark << "\n" << toml::toml_formatter(inside_->table) << "\n";
-    return out.str();
+    out << toml::toml_formatter(inside_->table) << "\n";
+    return "# " + remark + "\n" + shortened(out.str());
 }
 }

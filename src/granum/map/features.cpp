@@ -3,6 +3,7 @@
 #include "granum/base/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace granum::map
@@ -57,6 +58,27 @@ Sums Features::drawn(base::Random& random) const
     Sums sum = one();
     for (std::size_t b = 1; b < blocks.size(); ++b) sum += one();
     return sum;
+}
+
+Mean mean_of(Deposits const& deposits, std::string const& name, bool logarithmic)
+{
+    constexpr std::size_t blocks = 10;
+    auto const& values = deposits.of(name);
+    if (values.empty()) return {};
+    auto const [first, last] = std::minmax_element(deposits.time.begin(), deposits.time.end());
+    double const width = std::max(*last - *first, 1e-300);
+    std::array<double, blocks> solids{}, sum{};
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        auto const at = std::min(blocks - 1, static_cast<std::size_t>(blocks * (deposits.time[row] - *first) / width));
+        solids[at] += deposits.solids[row];
+        sum[at] += deposits.solids[row] * (logarithmic ? std::log10(values[row]) : values[row]);
+    }
+    double total = 0, weighted = 0, square = 0;
+    for (std::size_t b = 0; b < blocks; ++b) total += solids[b], weighted += sum[b];
+    Mean out{weighted / total, 0};
+    for (std::size_t b = 0; b < blocks; ++b) square += std::pow(sum[b] - out.value * solids[b], 2);
+    out.error = std::sqrt(square * blocks / (blocks - 1)) / total;
+    return out;
 }
 
 Features features(Axes const& axes, Deposits const& deposits, int blocks)

@@ -26,6 +26,15 @@ struct Deposits
     std::size_t size() const { return time.size(); }
 };
 
+struct Mean
+{
+    double value = 0, error = 0;  //!< standard error
+};
+
+//! Mean of a variable over the layer (of its log10 on demand), with its error from ten blocks of equal time; 0 without
+//! deposits.
+Mean mean_of(Deposits const& deposits, std::string const& name, bool logarithmic = false);
+
 //! Sums over the deposits of one block of time (or of any set of blocks).
 struct Sums
 {

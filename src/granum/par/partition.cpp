@@ -103,7 +103,8 @@ std::vector<int> Partition::near(int rank, double reach) const
     return out;
 }
 
-// One level after the other: the ranks' points in a part are cut where the work below is the share of the first group.
+// One level after the other: the ranks' points in a part are cut where the work below is the share of the first group,
+// or on the face where both halves of a step are shared out best.
 struct Partition::Balance
 {
     Partition& partition;
@@ -111,6 +112,50 @@ struct Partition::Balance
     std::span<double const> work;
     Communicator const& comm;
     std::array<std::vector<double>, 3> const* faces;
+    std::vector<bool> const& second;
+
+    //! A place to cut, and what the step then takes the slowest ranks: the sum over its halves, in the work of a group
+    //! over its share of the ranks.
+    struct Choice
+    {
+        std::size_t direction = 0;
+        double at = 0, time = std::numeric_limits<double>::infinity();
+    };
+
+    // The best of all faces within a part. What lies in the two layers of cells at a cut is partly done on both sides.
+    Choice best_face(std::vector<std::uint32_t> const& mine, Box const& box, double share) const
+    {
+        constexpr double twice = 0.25, better = 0.99;  // of two that are alike the first direction is taken
+        Choice best;
+        for (std::size_t d = 0; d < 3; ++d) {
+            std::vector<double> cuts;
+            for (double const face : (*faces)[d])
+                if (face > box.lower[d] && face < box.upper[d]) cuts.push_back(face);
+            if (cuts.empty()) continue;
+            std::size_t const layers = cuts.size() + 1;
+            std::vector<double> sums(2 * layers);
+            for (auto const k : mine) {
+                auto const layer = std::upper_bound(cuts.begin(), cuts.end(), points[k][d]) - cuts.begin();
+                sums[2 * static_cast<std::size_t>(layer) + (second.empty() ? 0 : second[k])] += work[k];
+            }
+            comm.sum(sums);
+            std::array<double, 2> all{}, below{};
+            for (std::size_t k = 0; k < sums.size(); ++k) all[k % 2] += sums[k];
+            Choice own;
+            for (std::size_t k = 0; k < cuts.size(); ++k) {
+                double time = 0;
+                for (std::size_t half : {0, 1}) {
+                    double const here = sums[2 * k + half], next = sums[2 * k + 2 + half];
+                    below[half] += here;
+                    time += std::max(below[half] / share, (all[half] - below[half]) / (1 - share));
+                    time += twice * (here + next);
+                }
+                if (time < own.time) own = {d, cuts[k], time};
+            }
+            if (own.time < better * best.time) best = own;
+        }
+        return best;
+    }
 
     // The face within a part (not at its ends) that is nearest to a cut; the cut itself where there is none.
     double on_face(std::size_t direction, Box const& box, double at) const
@@ -175,15 +220,20 @@ struct Partition::Balance
     int divide(std::vector<std::uint32_t> mine, Box const& box, int first_rank, int ranks)
     {
         if (ranks == 1) return -1 - first_rank;
+        int const first_group = ranks / 2;
+        double total = 0;
+        for (auto const k : mine) total += work[k];
+        double const share = static_cast<double>(first_group) / ranks, all = comm.sum(total), goal = all * share;
+        if (faces && all > 0) {
+            auto const [direction, at, time] = best_face(mine, box, share);
+            if (time < std::numeric_limits<double>::infinity())
+                return cut(std::move(mine), box, direction, at, first_rank, ranks);
+        }
         Box const filled = bounds(mine, box);
         Vec3 const apart = spread(mine, box);
         std::size_t direction = 0;
         for (std::size_t d = 1; d < 3; ++d)
             if (can_cut(d, box) && (!can_cut(direction, box) || apart[d] > 1.01 * apart[direction])) direction = d;
-        int const first_group = ranks / 2;
-        double total = 0;
-        for (auto const k : mine) total += work[k];
-        double const share = static_cast<double>(first_group) / ranks, all = comm.sum(total), goal = all * share;
         double low = filled.lower[direction], high = filled.upper[direction];
         if (all == 0) low = high = low + share * (high - low);  // nothing to weigh: the length is shared out
         for (int halving = 0; all > 0 && halving < 40; ++halving) {
@@ -193,30 +243,37 @@ struct Partition::Balance
                 if (points[k][direction] < middle) below += work[k];
             (comm.sum(below) < goal ? low : high) = middle;
         }
-        double const at = on_face(direction, box, 0.5 * (low + high));
+        return cut(std::move(mine), box, direction, on_face(direction, box, 0.5 * (low + high)), first_rank, ranks);
+    }
+
+    int cut(std::vector<std::uint32_t> mine, Box const& box, std::size_t direction, double at, int first_rank,
+            int ranks)
+    {
+        int const first_group = ranks / 2;
         std::vector<std::uint32_t> first, behind;
         for (auto const k : mine) (points[k][direction] < at ? first : behind).push_back(k);
-        int const cut = static_cast<int>(partition.cuts_.size());
+        auto const number = partition.cuts_.size();
         partition.cuts_.push_back({direction, at, 0, 0});
         Box first_box = box, behind_box = box;
         first_box.upper[direction] = behind_box.lower[direction] = at;
         int const first_cut = divide(std::move(first), first_box, first_rank, first_group);
         int const behind_cut = divide(std::move(behind), behind_box, first_rank + first_group, ranks - first_group);
-        partition.cuts_[static_cast<std::size_t>(cut)].first = first_cut;
-        partition.cuts_[static_cast<std::size_t>(cut)].behind = behind_cut;
-        return cut;
+        partition.cuts_[number].first = first_cut;
+        partition.cuts_[number].behind = behind_cut;
+        return static_cast<int>(number);
     }
 };
 
 Partition Partition::balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
-                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces)
+                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces,
+                              std::vector<bool> const& second)
 {
     Partition out;
     out.space_ = space;
     out.boxes_.assign(static_cast<std::size_t>(comm.size()), space.box);
     std::vector<std::uint32_t> all(points.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
-    Balance balance{out, points, work, comm, faces};
+    Balance balance{out, points, work, comm, faces, second};
     if (comm.size() > 1) out.find_boxes(balance.divide(std::move(all), space.box, 0, comm.size()), space.box);
     return out;
 }

@@ -37,9 +37,11 @@ class Partition
     Partition(Space const& space, Slabs const& slabs);
     //! Cuts so that each rank gets about the same sum of `work` of the points (m) that the ranks hold. Work is counted,
     //! never timed; where there is none yet, by length. Given `faces` (m, rising, from end to end of the space, by
-    //! direction), cuts lie on them: on the nearest to where they would be. Collective.
+    //! direction), cuts lie on them; `second` may then say of each point whether its work is done in the second half of
+    //! a step, for which all ranks wait: each half is shared out. Collective.
     static Partition balanced(Space const& space, std::span<Vec3 const> points, std::span<double const> work,
-                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces = nullptr);
+                              Communicator const& comm, std::array<std::vector<double>, 3> const* faces = nullptr,
+                              std::vector<bool> const& second = {});
 
     //! As cuts() told of another one of the same space.
     Partition(Space const& space, std::vector<double> const& cuts);

@@ -135,7 +135,8 @@ struct Store
     Column<double> core_diameter{{"core_diameter", "m", false, false, Group::process}};  //!< of one real granule
     Column<double> layer_mass{{"layer_mass", "kg", false, true, Group::process}};        //!< dried solids of the parcel
     Column<double> layer_volume{{"layer_volume", "m3", false, false, Group::process}};   //!< dried layer with its pores
-    Column<double> water{{"water", "kg", false, true, Group::process}};             //!< in open deposits of the parcel
+    Column<double> water{{"water", "kg", false, true, Group::process}};             //!< in open deposits and absorbed
+    Column<double> absorbed{{"absorbed", "kg", false, false, Group::process}};      //!< of that water, within the core
     Column<double> solute{{"solute", "kg", false, true, Group::process}};           //!< solids in open deposits
     Column<double> enthalpy{{"enthalpy", "J", false, false, Group::process}};       //!< stored; zero at 0 degC, liquid
     Column<double> temperature{{"temperature", "K", false, true, Group::process}};  //!< follows from the enthalpy
@@ -167,7 +168,7 @@ void for_every_column(StoreType& store, Visitor&& visit)
     visit(store.fluctuation), visit(store.eddy_left);
     visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.core_diameter),
         visit(store.layer_mass);
-    visit(store.layer_volume), visit(store.water), visit(store.solute), visit(store.enthalpy);
+    visit(store.layer_volume), visit(store.water), visit(store.absorbed), visit(store.solute), visit(store.enthalpy);
     visit(store.temperature);
 }
 

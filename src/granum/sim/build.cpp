@@ -346,6 +346,14 @@ drying::Settings drying_settings(Case const& data)
         settings.stages);
     settings.crystallisation = named<law::deposit::Crystallisation>(data.drying.crystallisation);
     if (auto* law = std::get_if<law::deposit::NucleationGrowth>(&settings.crystallisation)) *law = data.drying.crystals;
+    settings.sorption = named<law::vapour::Sorption>(data.drying.sorption);
+    if (auto* law = std::get_if<law::vapour::Gab>(&settings.sorption)) *law = data.drying.gab;
+    settings.sorption_time = data.drying.sorption_time;
+    settings.pores = {.share = data.granules.pores,
+                      .radius = data.granules.pore_radius,
+                      .viscosity = s.viscosity,
+                      .surface_tension = s.surface_tension,
+                      .contact_angle = s.contact_angle};
     settings.equilibrium_moisture = data.drying.equilibrium_moisture;
     settings.film_coverage = data.drying.film_coverage;
     settings.end_moisture = data.drying.end_moisture;

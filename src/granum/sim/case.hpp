@@ -5,6 +5,7 @@
 #include "granum/geometry/chamber.hpp"
 #include "granum/law/deposit/crystallisation.hpp"
 #include "granum/law/impact/splash.hpp"
+#include "granum/law/vapour/sorption.hpp"
 #include "granum/math/constants.hpp"
 #include "granum/particle/sizes.hpp"
 
@@ -107,6 +108,8 @@ struct GranulesCase
     double parcel_ratio = 1;        //!< l: a parcel stands for l^3 granules
     double heat_capacity = 1400;    //!< J/kg/K of the dry core and layer
     double emissivity = 0;          //!< of the surface; 0: no radiation
+    double pores = 0;               //!< share of a core that liquid can enter; 0: none
+    double pore_radius = 0;         //!< m, effective
     std::string start = "settled";  //!< "settled" (random packing that fell under gravity), "loose", "lattice", "given"
     double spacing = 1.1;           //!< of a lattice, diameters
     double noise = 0;               //!< of a lattice, share of the free way
@@ -319,6 +322,10 @@ struct DryingCase
     std::string deposit = "combined";  //!< "cap", "boundary-layer" or "combined"
     std::string stages = "falling-rate";
     std::string solidification = "gas-and-granule";
+    std::string sorption = "none";  //!< of the cores
+    law::vapour::Gab gab;
+    double sorption_time = 300;      //!< s
+    std::optional<double> absorbed;  //!< kg/kg core at the start; otherwise in equilibrium
     std::string crystallisation = "at-saturation";
     law::deposit::NucleationGrowth crystals;
     double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none

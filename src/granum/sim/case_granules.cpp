@@ -256,6 +256,13 @@ void read_granules(io::CaseFile& file, Case& data, Purpose purpose)
                                            "of the dry granule", io::positive);
     granules.emissivity = file.quantity("granules.emissivity", Dimension::one, granules.emissivity,
                                         "of granules that radiate; 0: none does", io::zero_to_one);
+    granules.pores = file.quantity("granules.pores", Dimension::one, granules.pores,
+                                   "share of a core's volume that liquid can enter; 0: none", io::zero_to_one);
+    granules.pore_radius =
+        file.quantity("granules.pore_radius", Dimension::length, granules.pores > 0 ? std::nullopt : std::optional(0.0),
+                      "of these pores, effective", {.low = 0, .high = 1e-3});
+    if (granules.pores == 0 && file.has("granules.pore_radius"))
+        file.mistake("granules.pore_radius", "has no meaning without granules.pores");
     granules.frozen = file.boolean("granules.frozen", false, "granules stay where they are (fixed bed)");
     auto const sizes = read_sizes(file, "granules.");
     read_granule_file(file, data);

@@ -241,6 +241,28 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
 
 namespace
 {
+void read_sorption(io::CaseFile& file, Case& data)
+{
+    auto& drying = data.drying;
+    drying.sorption =
+        file.name("drying.sorption", drying.sorption, "law", laws_for("drying.sorption"), "a law of sorption");
+    bool const none = drying.sorption == law::vapour::NoSorption::card.name;
+    auto& gab = drying.gab;
+    gab.monolayer = file.quantity("drying.sorption_monolayer", Dimension::one, gab.monolayer,
+                                  "X_m, kg water per kg core", io::positive);
+    gab.c = file.quantity("drying.sorption_c", Dimension::one, gab.c, "C", io::positive);
+    gab.k = file.quantity("drying.sorption_k", Dimension::one, gab.k, "K", {.low = 0, .high = 1, .low_allowed = false});
+    drying.sorption_time = file.quantity("drying.sorption_time", Dimension::time, drying.sorption_time,
+                                         "in which absorbed water comes to 1/e of its way", io::positive);
+    drying.absorbed =
+        file.optional_quantity("drying.absorbed", Dimension::one,
+                               "kg water per kg core at the start; otherwise in equilibrium", io::not_negative);
+    for (auto const* name : {"sorption_monolayer", "sorption_c", "sorption_k", "sorption_time", "absorbed"})
+        if (auto const key = std::string("drying.") + name; none && file.has(key))
+            file.mistake(key, "belongs to drying.sorption = \"gab\"");
+    if (!none && !data.spray.present) file.mistake("drying.sorption", "goes with a [spray]");
+}
+
 void read_crystallisation(io::CaseFile& file, Case& data)
 {
     auto& drying = data.drying;
@@ -282,6 +304,7 @@ void read_process(io::CaseFile& file, Case& data)
         if (auto const key = std::string("drying.") + name; melt && file.has(key))
             file.mistake(key, "has no meaning for a melt");
     read_crystallisation(file, data);
+    read_sorption(file, data);
     bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
     drying.critical_moisture =
         file.quantity("drying.critical_moisture", Dimension::one, 0.0,

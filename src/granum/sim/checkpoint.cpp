@@ -253,7 +253,7 @@ void Simulation::take_granules(Saved const& saved)
     granules_ = saved.granules;
     partition_ = saved.same_ranks && case_.gas.present
                      ? par::Partition({{case_.chamber.lower(), case_.chamber.upper()}, case_.periodic}, saved.cuts)
-                     : partition(granules_.position.values, {});
+                     : partition(granules_.position.values);
     case_.granules.given.clear();
     fill_feeds();
     case_.granules.parcels = static_cast<long>(saved.common.at(0));

@@ -75,11 +75,14 @@ double kernel_rate()
     return std::isfinite(x) ? static_cast<double>(done) / seconds : 1;  // the use of x keeps the loop
 }
 
-// The estimate of wall time counts work in evaluations of the kernel above. Those of a granule and step, its bytes and
-// those of a rank are measured on granules alone, doc/howto/size-a-run.md says how; on other processors the ratio of
-// the two kernels is another. What a cell and gas step (momentum, pressure iterations, exchange) takes is assumed.
-constexpr double evaluations_per_granule_step = 4.5;
-constexpr double evaluations_per_cell_step = 30;
+// The estimate of wall time counts work in evaluations of the kernel above, as measured on this program's own runs:
+// doc/howto/size-a-run.md says which. On other processors their ratio to the kernel is another.
+constexpr double evaluations_per_granule_step = 4.5;  //!< of granules at rest on each other
+constexpr double evaluations_per_flying_step = 1.7;   //!< of granules that gas keeps apart
+constexpr double evaluations_per_cell_step = 60;      //!< momentum, pressure, vapour, heat
+constexpr double evaluations_per_exchange = 17;       //!< of a parcel or a cell in a gas step
+constexpr double evaluations_per_droplet = 3800;      //!< a parcel's flight and the drying of its deposit
+constexpr double lost_per_rank = 0.2;                 //!< of one, by each further one
 constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
 constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
 constexpr double bytes_per_cell = 800;          //!< fields and the rows of the pressure matrix (assumed)
@@ -217,7 +220,8 @@ Forecast forecast(Case const& data, int ranks)
         if (out.parcel_diameter > 0) out.cell_over_parcel = narrow / out.parcel_diameter;
         for (auto const& nozzle : data.spray.nozzles)  // the jet where it fills one cell
             fast = std::max(fast, std::sqrt(nozzle.air_mass_flow * nozzle.air_velocity / (density * narrow * narrow)));
-        out.gas_step = data.time.gas_step.value_or(0.5 * narrow / fast);
+        out.gas_step = data.time.gas_step.value_or(
+            std::min(narrow / fast, out.granule_step > 0 ? 50 * out.granule_step : INFINITY));
     }
     if (has_balance(data)) out.balance = balance(data);
 
@@ -225,9 +229,16 @@ Forecast forecast(Case const& data, int ranks)
     double const each = bytes_per_parcel + (data.gas.present ? bytes_of_gas_and_layer : 0);
     out.memory = parcels * each + cells * bytes_per_cell + ranks * bytes_per_rank;
     double work = 0;
-    if (out.granule_step > 0) work += data.time.duration / out.granule_step * parcels * evaluations_per_granule_step;
-    if (out.gas_step > 0) work += data.time.duration / out.gas_step * cells * evaluations_per_cell_step;
-    out.wall_time = work / kernel_rate() / std::max(1, ranks);
+    double const time = data.time.duration;
+    bool const flies = out.plate_velocity > out.minimum_fluidisation;
+    if (out.granule_step > 0)
+        work +=
+            time / out.granule_step * parcels * (flies ? evaluations_per_flying_step : evaluations_per_granule_step);
+    if (out.gas_step > 0)
+        work +=
+            time / out.gas_step * (cells * evaluations_per_cell_step + (cells + parcels) * evaluations_per_exchange);
+    if (!data.spray.nozzles.empty()) work += time * data.spray.parcels_per_second * evaluations_per_droplet;
+    out.wall_time = work / kernel_rate() * (1 + lost_per_rank * (ranks - 1)) / std::max(1, ranks);
     add_warnings(data, out);
     return out;
 }

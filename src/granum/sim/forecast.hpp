@@ -26,7 +26,7 @@ struct Forecast
     double overlap = 0;               //!< over the radius, at that speed
     std::vector<dem::StepBound> bounds;
     double granule_step = 0;  //!< s, of the case or the smallest bound; 0 for hard spheres
-    double gas_step = 0;      //!< s, of the case or from the Courant number 0.5 of jet and bed
+    double gas_step = 0;      //!< s, of the case, or from the Courant number 1 of jet and bed and 50 granule steps
     long cells = 0;
     math::Vec3 cell_size;         //!< m
     double cell_over_parcel = 0;  //!< narrowest cell edge over parcel diameter

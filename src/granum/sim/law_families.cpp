@@ -15,6 +15,7 @@
 #include "granum/law/force/basset.hpp"
 #include "granum/law/heat/all.hpp"
 #include "granum/law/turbulence/all.hpp"
+#include "granum/law/vapour/sorption.hpp"
 #include "granum/law/viscosity/all.hpp"
 #include "granum/product/all.hpp"
 
@@ -66,6 +67,7 @@ std::vector<LawFamily> const& law_families()
                                              "heat that leaves the deposit of a melt"),
         family<law::deposit::Crystallisation>("crystallisation", "drying.crystallisation",
                                               "crystals in the deposit of a solution"),
+        family<law::vapour::Sorption>("sorption", "drying.sorption", "water that cores absorb from the air"),
         family<product::All>("porosity", "product.porosity_model",
                              "porosity of the layer from the history of its deposits"),
     };

@@ -333,7 +333,8 @@ void Output::count(drying::Event const& event)
             return law({event.mean_drying_potential, event.drying_time, event.moisture_at_impact});
         },
         model_);
-    layers_[static_cast<std::size_t>(event.granule)].add(event.solids * (1 - event.initial), prediction);
+    layers_[static_cast<std::size_t>(event.granule)].add(event.solids * (1 - event.initial) * (1 - event.imbibed),
+                                                         prediction);
 }
 
 void Output::events()

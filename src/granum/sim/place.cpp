@@ -176,7 +176,7 @@ void Simulation::place_granules()
         add_granule(granules_, one);
     }
     granules_.owned = granules_.rows();
-    partition_ = partition(granules_.position.values, {});
+    partition_ = partition(granules_.position.values);
 }
 
 void Simulation::settle()

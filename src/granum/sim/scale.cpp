@@ -18,9 +18,11 @@ std::string in(double value, char const* unit)
     return fmt::format("\"{:.8g} {}\"", value, unit);
 }
 
+//! To a nanometre: 0 for the cosine of a right angle.
 std::string at(Vec3 const& x)
 {
-    return fmt::format("[{}, {}, {}]", in(1e3 * x.x, "mm"), in(1e3 * x.y, "mm"), in(1e3 * x.z, "mm"));
+    auto const mm = [](double length) { return in(std::round(1e9 * length) / 1e6 + 0.0, "mm"); };
+    return fmt::format("[{}, {}, {}]", mm(x.x), mm(x.y), mm(x.z));
 }
 
 //! Places above the plate of the pilot.

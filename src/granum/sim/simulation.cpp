@@ -69,8 +69,9 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         watch.dissipated = watch.wall_work = {};
     }
     follow(case_, nominal_, 0);
+    if (case_.spray.present) drying_ = std::make_unique<drying::Drying>(drying_settings(case_));
     if (case_.gas.present) {
-        if (!saved && comm_.size() > 1) share_space(partition(granules_.position.values, {}));
+        if (!saved && comm_.size() > 1) share_space(partition(granules_.position.values));
         grid_ = grid::build(grid::openness(case_.chamber), lines_, grid::layout(*partition_, lines_), comm_);
         if (case_.chamber.region) check_openings(case_, grid_, comm_);
         make_gas();
@@ -79,7 +80,6 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
     if (case_.spray.present) {
         nozzles_ = nozzles(case_);
         flight_ = flight_settings(case_);
-        drying_ = std::make_unique<drying::Drying>(drying_settings(case_));
         find_nozzle_cells();
         if (case_.start.quasi_steady && !saved) start_deposits();
     }

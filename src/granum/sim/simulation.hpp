@@ -76,6 +76,8 @@ struct GasWork
     double sweeps = 0;      //!< times cells
 };
 
+struct WorkPoints;  // balance_work.cpp
+
 class Simulation
 {
   public:
@@ -133,10 +135,10 @@ class Simulation
     template <class Visit>
     void each_share(Visit&& visit);  //!< scalars of which every rank has its share
 
-    //! Space among ranks, so that cells and granules at `places` (of which each rank names its share) with their `work`
-    //! in steps of a granule (empty: as it may become) are as much for each. Collective.
-    par::Partition partition(std::vector<math::Vec3> places, std::vector<double> work) const;
-    void add_cells(std::vector<math::Vec3>& points, std::vector<double>& work) const;  //!< this rank's share of them
+    //! Space among ranks, so that cells and granules at `places` (of which each rank names its share) will be as much
+    //! work for each, in granule steps and in the gas step. Collective.
+    par::Partition partition(std::vector<math::Vec3> const& places) const;
+    void add_cells(WorkPoints& all) const;  //!< this rank's share of them
     void share_space(par::Partition partition);
     void balance_work(int substeps);     //!< cuts space anew where a rank has too much to do. Collective.
     void follow_programme(double time);  //!< sets inlets and spray to what they are then

@@ -68,6 +68,13 @@ void Simulation::start_gas()
                                                     : temperature) +
                        case_.start.temperature_offset;
 
+    if (drying_ && case_.drying.sorption != "none")
+        for (std::size_t row = 0; row < granules_.owned; ++row) {
+            double const held = case_.drying.absorbed.value_or(drying_->equilibrium(bed, bed, vapour));
+            granules_.water[row] = granules_.absorbed[row] = held * granules_.core_mass[row];
+            drying::resize_granule(granules_, row);
+        }
+
     std::array<base::ExactSum, 2> all{};  // heat capacity of the granules and their heat above the gas
     for (std::size_t row = 0; row < granules_.owned; ++row) {
         double& own = granules_.temperature[row];
@@ -151,6 +158,8 @@ void Simulation::start_deposits()
     double const humidity = air::relative_humidity(temperature, balance_.outlet_humidity, pressure);
     DryingCurve curve;
     while (deposit.water > dry && curve.time.size() < 100000) {
+        deposit.crystals.mass =
+            std::max(0.0, deposit.solute - deposit.water * spray.solubility);  // as in the steady state
         auto const limit = drying_->limits(deposit, film, saturation, sherwood, batch.diameter, humidity, 1);
         double const rate = std::visit([&](auto const& law) { return law(limit.cap, sum, limit.layer, full); },
                                        drying_->settings().combine);

@@ -25,11 +25,12 @@ void SurfaceSample::take(drying::Event const& event, double solids_density)
     auto const n = static_cast<std::size_t>(index_[parcel]);
     // A stream for each event of each granule: what falls does not depend on ranks or restarts.
     base::Random random(seed_, base::Purpose::surface, parcel, events_[n]++);
-    product::fall(surfaces_[n],
-                  {.per_granule = event.per_granule,
-                   .radius = 0.5 * event.granule_diameter,
-                   .base_radius = event.footprint,
-                   .volume = event.solids / event.weight / (solids_density * (1 - event.porosity))},
-                  random);
+    product::fall(
+        surfaces_[n],
+        {.per_granule = event.per_granule,
+         .radius = 0.5 * event.granule_diameter,
+         .base_radius = event.footprint,
+         .volume = event.solids * (1 - event.imbibed) / event.weight / (solids_density * (1 - event.porosity))},
+        random);
 }
 }

@@ -25,31 +25,8 @@ using report::number;
 constexpr std::array colours{"#1b5e8c", "#c1440e", "#3a7d44", "#7a4f9a", "#8a6d00",
                              "#00707a", "#a02c5d", "#555555", "#b06a00"};
 
-struct Mean
-{
-    double value = 0, error = 0;
-};
-
-//! Mean of a variable over the layer, with its error from ten blocks of time.
-Mean mean_of(map::Deposits const& deposits, std::string const& name)
-{
-    constexpr std::size_t blocks = 10;
-    auto const& values = deposits.of(name);
-    if (values.empty()) return {};
-    auto const [first, last] = std::minmax_element(deposits.time.begin(), deposits.time.end());
-    double const width = std::max(*last - *first, 1e-300);
-    std::array<double, blocks> solids{}, sum{};
-    for (std::size_t row = 0; row < values.size(); ++row) {
-        auto const at = std::min(blocks - 1, static_cast<std::size_t>(blocks * (deposits.time[row] - *first) / width));
-        solids[at] += deposits.solids[row], sum[at] += deposits.solids[row] * values[row];
-    }
-    double total = 0, weighted = 0, square = 0;
-    for (std::size_t b = 0; b < blocks; ++b) total += solids[b], weighted += sum[b];
-    Mean out{weighted / total, 0};
-    for (std::size_t b = 0; b < blocks; ++b) square += std::pow(sum[b] - out.value * solids[b], 2);
-    out.error = std::sqrt(square * blocks / (blocks - 1)) / total;
-    return out;
-}
+using map::Mean;
+using map::mean_of;
 
 struct Column
 {

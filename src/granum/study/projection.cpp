@@ -1,6 +1,7 @@
 #include "granum/study/projection.hpp"
 
 #include "granum/base/error.hpp"
+#include "granum/io/snapshot_file.hpp"
 #include "granum/io/summary_file.hpp"
 #include "granum/io/text_file.hpp"
 #include "granum/law/layer/renewal.hpp"
@@ -39,7 +40,7 @@ double needed(nlohmann::json const& summary, std::string const& folder, char con
 
 //! The cores in classes of a few micrometres: up to what the layer of a batch makes of them, with room for a spread; of
 //! a bed that is fed and taken from, whose granules stay for very different times, up to ten times their size.
-population::Classes cores(sim::Case const& data, std::optional<double> layer_volume)
+population::Classes cores(sim::Case const& data, std::optional<double> layer_volume, double nuclei)
 {
     double smallest = 1e9, largest = 0, volume = 0;
     for (auto const& batch : data.granules.batches) {
@@ -47,7 +48,8 @@ population::Classes cores(sim::Case const& data, std::optional<double> layer_vol
         volume += batch.mass / batch.density;
     }
     double const top = layer_volume ? 1.3 * largest * std::cbrt(1 + 3 * *layer_volume / volume) : 10 * largest;
-    auto out = population::Classes::even(0.98 * smallest, top, layer_volume ? 800 : 3000);
+    double const low = nuclei > 0 ? std::min(0.98 * smallest, 0.9 * nuclei) : 0.98 * smallest;
+    auto out = population::Classes::even(low, top, layer_volume ? 800 : 3000);
     constexpr int draws = 2000;
     for (auto const& batch : data.granules.batches) {
         double const count = batch.mass / (batch.density * math::pi / 6 * batch.sizes.mean_cube());
@@ -57,7 +59,8 @@ population::Classes cores(sim::Case const& data, std::optional<double> layer_vol
 }
 }
 
-Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous, int rows)
+Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous,
+                   Nuclei const& nuclei, int rows)
 {
     auto const data = sim::read_case(sim::case_file_of(folder)).data;
     auto const summary = io::read_summary(folder);
@@ -72,12 +75,23 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
     out.solids_rate = data.spray.rate * data.spray.solids_fraction;
     double const kept = out.solids_rate * (1 - out.overspray), end = 3600 * hours;
     double const simulated = needed(summary, folder, "run.simulated_s");
+    out.growth = size_growth(io::read_snapshot(folder + "/snapshots.h5").granules);
     double const variation = io::number_at(summary, "product.surface.variation_between").value_or(std::nan(""));
     double core_mass = 0;
     for (auto const& batch : data.granules.batches) core_mass += batch.mass;
 
     auto const rates_for = [&](double porosity, double held) {
         population::Rates rates{.layer = kept / (data.spray.solids_density * (1 - porosity))};
+        if (nuclei.kept > 0) {
+            double const volume =
+                nuclei.kept * out.overspray * out.solids_rate / (data.spray.solids_density * (1 - porosity));
+            rates.nuclei = out.nuclei_rate = volume / (math::pi / 6 * std::pow(nuclei.diameter, 3));
+            rates.nuclei_diameter = nuclei.diameter;
+        }
+        if (out.growth.known && std::abs(out.growth.exponent) > 2 * out.growth.error)
+            rates.growth = [p = out.growth.exponent, d0 = data.granules.diameter](double d) {
+                return std::pow(d / d0, p);
+            };
         if (!continuous) return rates;
         double const each = math::pi / 6 * std::pow(data.granules.diameter, 3) * data.granules.density;
         rates.feed = continuous->feed / each, rates.feed_diameter = data.granules.diameter;
@@ -90,7 +104,7 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
     std::vector<population::Rates> rates;
     for (double const porosity : porosities) {
         auto const layer = kept * end / (data.spray.solids_density * (1 - porosity));
-        states.push_back(cores(data, continuous ? std::nullopt : std::optional(layer)));
+        states.push_back(cores(data, continuous ? std::nullopt : std::optional(layer), nuclei.diameter));
         rates.push_back(rates_for(porosity, states.back().total_volume()));
     }
     double const start = states[0].mean_diameter(), density = data.spray.solids_density * (1 - out.porosity);
@@ -109,7 +123,7 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
         one.d50_low = states[1].percentile(0.5), one.d50_high = states[2].percentile(0.5);
         if (!continuous) {
             one.layer = 0.5 * (own.mean_diameter() - start);
-            one.mass = core_mass + kept * time;
+            one.mass = core_mass + (kept + nuclei.kept * out.overspray * out.solids_rate) * time;
             one.variation = time > simulated ? law::layer::later_variation(variation, simulated, time) : variation;
         } else {
             double const mean_density = data.granules.density;
@@ -119,6 +133,20 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
         out.rows.push_back(one);
     }
     return out;
+}
+
+namespace
+{
+std::string growth_words(SizeGrowth const& growth)
+{
+    if (!growth.known) return "The size of a granule does not matter for its growth: the run's are too alike to tell.";
+    auto const found =
+        fmt::format("layer per surface goes with the {:.2f} +- {:.2f}th power of the diameter in the run",
+                    growth.exponent, growth.error);
+    return std::abs(growth.exponent) > 2 * growth.error
+               ? "Granules grow by their size: " + found + "."
+               : "The size of a granule does not matter for its growth: " + found + ".";
+}
 }
 
 void write(Projection const& p, std::string const& folder)
@@ -154,12 +182,13 @@ void write(Projection const& p, std::string const& folder)
         "({} to {} um), d90 {} "
         "um; residual moisture {} kg/kg.</p>\n<p>The run's layer porosity of {:.3f} (95 % interval {:.3f} to {:.3f}), "
         "its overspray of {:.2f} % "
-        "and its air stay as they are; the size of a granule does not matter for its growth. The spread of the layer's "
-        "mass falls with the "
-        "root of time, as in a well-mixed bed.</p>\n",
+        "and its air stay as they are. {}{} The spread of the layer's mass falls with the root of time, as in a "
+        "well-mixed "
+        "bed.</p>\n",
         end.time / 3600, number(1e6 * end.d10), number(1e6 * end.d50), number(1e6 * end.d50_low),
         number(1e6 * end.d50_high), number(1e6 * end.d90), number(p.moisture, 2), p.porosity, p.porosity_low,
-        p.porosity_high, 100 * p.overspray);
+        p.porosity_high, 100 * p.overspray, growth_words(p.growth),
+        p.nuclei_rate > 0 ? fmt::format(" {} new granules per second come from dust.", number(p.nuclei_rate, 3)) : "");
     std::string charts = report::figure(report::svg(sizes), "Size of the granules in the bed, by volume.");
     if (batch) {
         charts += report::figure(report::svg(layers), "Mean thickness of the layer.");

@@ -2,6 +2,8 @@
 // its granules.
 #pragma once
 
+#include "granum/study/size_growth.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,13 @@ struct Continuous
     double feed = 0;        //!< kg/s of cores as those of the run
     double diameter = 0;    //!< m, that half of the granules of this size are let through
     double sharpness = 20;  //!< a of 1 / (1 + (diameter / d)^a)
+};
+
+//! Solids that the run lost as dust, as far as they stay in the bed as seeds of new granules.
+struct Nuclei
+{
+    double kept = 0;      //!< share of the overspray
+    double diameter = 0;  //!< m
 };
 
 struct Projected
@@ -31,16 +40,18 @@ struct Projection
 {
     double porosity = 0, porosity_low = 0, porosity_high = 0;
     double overspray = 0;    //!< share of the solids that leave or stay on walls
+    double nuclei_rate = 0;  //!< new granules per second
+    SizeGrowth growth;       //!< of large granules against small ones
     double moisture = 0;     //!< kg/kg, residual
     double solids_rate = 0;  //!< kg/s
     std::vector<Projected> rows;
 };
 
-//! Takes the case and the summary of a run folder. The size of a granule does not matter for its growth; porosity,
-//! overspray and air stay those of the run. Throws base::IoError or base::CaseError where the run cannot tell what is
-//! needed.
+//! Takes the case, the summary and the last state of a run folder. The size of a granule matters for its growth as far
+//! as the run's granules of different sizes tell (by two standard errors at least); porosity, overspray and air stay
+//! those of the run. Throws base::IoError or base::CaseError where the run cannot tell what is needed.
 Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous,
-                   int rows = 121);
+                   Nuclei const& nuclei = {}, int rows = 121);
 
 //! project.csv and project.html in the run folder.
 void write(Projection const& projection, std::string const& folder);

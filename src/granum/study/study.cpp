@@ -57,6 +57,7 @@ Study read_study(std::string const& path)
     if (study.most < study.least) file.mistake("window.most", "is below window.least");
     auto const map = file.words("map", "", "to predict the property of each point with");
     if (!map.empty()) study.map = file.beside(map);
+    file.know("set");
     auto const common = file.words("case", "", "that all points are made of");
     int const count = file.count("point");
     std::set<std::string> names;
@@ -88,6 +89,7 @@ Study read_study(std::string const& path)
 std::string case_of(Study const& study, Point const& point)
 {
     io::CaseEdit edit(point.base);
+    edit.merge(study.path, "set");
     edit.merge(study.path, point.key);
     return edit.text(fmt::format("Point {} of {}, made by granum study from {}.", point.name,
                                  fs::path(study.path).filename().string(), fs::path(point.base).filename().string()));

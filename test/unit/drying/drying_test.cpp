@@ -395,6 +395,67 @@ TEST(Event, tells_of_each_deposit_what_it_really_met)
     }
 }
 
+// Water of 40 um on pores of 1 um that are a fifth of the core: by hand, V^(2/3) = 1.039e-9 m2, 1.35 V^(2/3) 3e-3 /
+// (0.04 1e-6 0.063 cos 40) = 2.180e-3 s.
+TEST(Imbibition, takes_the_time_and_the_share_of_solids_that_it_should)
+{
+    law::wetting::Pores const pores{.share = 0.2,
+                                    .radius = 1e-6,
+                                    .viscosity = 3e-3,
+                                    .surface_tension = 0.063,
+                                    .contact_angle = 40 * math::pi / 180};
+    double const volume = math::pi / 6 * std::pow(40e-6, 3);
+    EXPECT_NEAR(law::wetting::penetration_time(volume, pores), 2.180e-3, 1e-6);
+    EXPECT_EQ(law::wetting::entered(0.25, 1), 0.5);
+    EXPECT_EQ(law::wetting::entered(2, 1), 1);
+    auto repelled = pores;
+    repelled.contact_angle = 2;
+    EXPECT_EQ(law::wetting::entered(1, law::wetting::penetration_time(volume, repelled)), 0);
+
+    // Pores so narrow that half of each deposit enters; none has a layer when the first dries.
+    Stated const stated;
+    auto bed = stated.bed(law::deposit::Cap{}, 5.731);
+    bed.settings.pores = pores;
+    auto const dry = [&] {
+        auto const before = bed.events.size();
+        while (bed.events.size() == before) bed.advance(1e-3);
+        return bed.events.back();
+    };
+    auto const first = dry();
+    EXPECT_EQ(first.imbibed, 1);
+    EXPECT_EQ(bed.granules.layer_volume[0], 0);
+    EXPECT_NEAR(bed.granules.layer_mass[0], stated.solute, 1e-12 * stated.solute);
+    bed.settings.pores.radius = 1e-6 * 2.180e-3 / (4 * first.drying_time);
+    bed.wet(0, 1, stated.water, stated.solute, stated.base);
+    EXPECT_NEAR(dry().imbibed, 0.5, 2e-3);
+    // A layer as thick as one deposit's leaves exp(-1) of the core bare.
+    bed.granules.layer_volume[0] = stated.solute / (stated.solids_density * 0.6) /
+                                   (math::pi * stated.base * stated.base) * math::pi *
+                                   std::pow(bed.granules.diameter[0], 2);
+    bed.wet(0, 1, stated.water, stated.solute, stated.base);
+    EXPECT_NEAR(dry().imbibed, 0.5 * std::exp(-1), 5e-3);  // the granule has grown
+}
+
+// By hand: K a = 0.4, 0.04 * 10 * 0.4 / (0.6 * 4.6) = 0.05797.
+TEST(Sorption, comes_to_the_isotherm_exponentially_and_keeps_water_and_heat)
+{
+    EXPECT_NEAR(law::vapour::Gab{}(0.5), 0.4 * 0.4 / (0.6 * 4.6), 1e-12);
+    Bed bed(1);
+    bed.settings.sorption = law::vapour::Gab{};
+    bed.settings.sorption_time = 2;
+    double const held =
+        Drying(bed.settings).equilibrium(bed.granules.temperature[0], bed.temperature[0], bed.vapour[0]);
+    EXPECT_GT(held, 0.03);
+    double const core = bed.granules.core_mass[0], before = bed.granules.enthalpy[0];
+    double taken = 0;
+    for (int n = 0; n < 200; ++n) bed.advance(0.01), taken -= bed.evaporated[0];
+    EXPECT_NEAR(bed.granules.absorbed[0], held * core * (1 - std::exp(-1)), 1e-9 * core);
+    EXPECT_NEAR(bed.granules.water[0], taken, 1e-12 * core);
+    EXPECT_NEAR(bed.granules.enthalpy[0] - before, taken * material::vapour_enthalpy(bed.granules.temperature[0]),
+                1e-9 * taken * 2.5e6);
+    EXPECT_NEAR(bed.granules.mass[0], core + taken, 1e-12 * core);
+}
+
 TEST(Event, tells_the_crystals_of_its_deposit)
 {
     Rain rain(0.63);

@@ -52,6 +52,7 @@ TEST(Study, makes_each_point_of_the_case_and_what_it_sets)
     auto const study = read_study(folder.write(R"(format = 1
 title = "two points"
 case = "lab.toml"
+set.spray.temperature = "15 degC"
 [window]
 least = "3 s"
 error = 0.02
@@ -79,6 +80,8 @@ parcels = 5000
     EXPECT_EQ(first.granules.parcels, lab.granules.parcels);
     EXPECT_EQ(first.gas.inlet.humidity, lab.gas.inlet.humidity);
     EXPECT_EQ(second.granules.parcels, 5000);
+    EXPECT_NEAR(first.spray.temperature, 288.15, 1e-9) << "of all points";
+    EXPECT_NEAR(second.spray.temperature, 288.15, 1e-9);
     EXPECT_EQ(second.spray.rate, lab.spray.rate);
 }
 

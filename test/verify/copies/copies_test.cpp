@@ -5,7 +5,7 @@
 #include "scene/temporary_folder.hpp"
 #include "verify/table.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 namespace
 {
@@ -71,31 +71,6 @@ upper = ["{} mm", "60 mm", "270 mm"]
     return text;
 }
 
-struct Mean
-{
-    double value = 0, error = 0;
-};
-
-//! Of a column of the deposits, over their solids, with its standard error from ten blocks.
-Mean mean_of(map::Deposits const& deposits, std::string const& name)
-{
-    std::array<double, 10> sums{}, solids{};
-    auto const& values = deposits.of(name);
-    auto const [first, last] = std::minmax_element(deposits.time.begin(), deposits.time.end());
-    double const length = (*last - *first) * (1 + 1e-9);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        auto const block = static_cast<std::size_t>(10 * (deposits.time[k] - *first) / length);
-        double const value = name == "drying_time" ? std::log10(values[k]) : values[k];
-        sums[block] += deposits.solids[k] * value, solids[block] += deposits.solids[k];
-    }
-    Mean out;
-    double squares = 0;
-    for (std::size_t b = 0; b < 10; ++b) out.value += sums[b] / solids[b] / 10;
-    for (std::size_t b = 0; b < 10; ++b) squares += std::pow(sums[b] / solids[b] - out.value, 2);
-    out.error = std::sqrt(squares / 90);
-    return out;
-}
-
 TEST(TwoUnits, in_one_box_are_two_of_one)
 {
     scene::TemporaryFolder const folder;
@@ -108,7 +83,9 @@ TEST(TwoUnits, in_one_box_are_two_of_one)
         runs[static_cast<std::size_t>(count - 1)] = map::read_deposits(name);
     }
     auto const compare = [&](std::string const& column, std::string const& words, double largest_error) {
-        Mean const one = mean_of(runs[0].deposits, column), two = mean_of(runs[1].deposits, column);
+        bool const log = column == "drying_time";
+        map::Mean const one = map::mean_of(runs[0].deposits, column, log),
+                        two = map::mean_of(runs[1].deposits, column, log);
         EXPECT_LT(one.error, largest_error) << words;
         EXPECT_LT(two.error, largest_error) << words;
         verify::absolute("P32", words + " of two units in one box against one, within three standard errors", one.value,
