@@ -21,6 +21,7 @@ void line(std::string_view label, std::string const& text)
 std::string duration(double seconds)
 {
     if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+    if (seconds < 600) return fmt::format("{:.1f} min", seconds / 60);
     if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
     return fmt::format("{:.1f} h", seconds / 3600);
 }
@@ -84,8 +85,8 @@ int check(std::string const& path)
     }
     line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));
     if (f.wall_time > 0)
-        line("wall time", fmt::format("roughly {} for {:.3g} s on {} {} (an order of magnitude)", duration(f.wall_time),
-                                      data.time.duration, ranks, ranks == 1 ? "core" : "cores"));
+        line("wall time", fmt::format("about {} for {:.3g} s on {} {}", duration(f.wall_time), data.time.duration,
+                                      ranks, ranks == 1 ? "core" : "cores"));
     for (auto const& warning : resolved.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("the case can be run\n");
     return 0;

@@ -78,11 +78,13 @@ double kernel_rate()
 // The estimate of wall time counts work in evaluations of the kernel above, as measured on this program's own runs:
 // doc/howto/size-a-run.md says which. On other processors their ratio to the kernel is another.
 constexpr double evaluations_per_granule_step = 4.5;  //!< of granules at rest on each other
-constexpr double evaluations_per_flying_step = 1.7;   //!< of granules that gas keeps apart
-constexpr double evaluations_per_cell_step = 60;      //!< momentum, pressure, vapour, heat
-constexpr double evaluations_per_exchange = 17;       //!< of a parcel or a cell in a gas step
-constexpr double evaluations_per_droplet = 3800;      //!< a parcel's flight and the drying of its deposit
-constexpr double lost_per_rank = 0.2;                 //!< of one, by each further one
+constexpr double evaluations_per_flying_step = 1.93;  //!< of granules that gas keeps apart
+constexpr double evaluations_per_cell_step = 65;      //!< of an open cell: momentum, pressure, vapour, heat
+constexpr double evaluations_per_exchange = 32;       //!< of a parcel in a gas step
+constexpr double evaluations_per_droplet = 9500;      //!< a droplet parcel's flight and the drying of its deposit
+constexpr double beside = 1.05;                       //!< all else: pictures, checkpoints, set-up
+constexpr double lost_per_rank = 0.14;                //!< by each further rank, to memory and uneven work
+constexpr double waiting_per_gas_step = 2.4e5;        //!< of ranks for each other's messages
 constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
 constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
 constexpr double bytes_per_cell = 800;          //!< fields and the rows of the pressure matrix (assumed)
@@ -229,16 +231,20 @@ Forecast forecast(Case const& data, int ranks)
     double const each = bytes_per_parcel + (data.gas.present ? bytes_of_gas_and_layer : 0);
     out.memory = parcels * each + cells * bytes_per_cell + ranks * bytes_per_rank;
     double work = 0;
-    double const time = data.time.duration;
+    double const time = data.time.duration, gas_steps = out.gas_step > 0 ? time / out.gas_step : 0;
     bool const flies = out.plate_velocity > out.minimum_fluidisation;
     if (out.granule_step > 0)
         work +=
             time / out.granule_step * parcels * (flies ? evaluations_per_flying_step : evaluations_per_granule_step);
-    if (out.gas_step > 0)
-        work +=
-            time / out.gas_step * (cells * evaluations_per_cell_step + (cells + parcels) * evaluations_per_exchange);
+    if (gas_steps > 0) {
+        auto const extent = data.chamber.upper() - data.chamber.lower();
+        double const open = data.chamber.volume() / (extent.x * extent.y * extent.z);
+        work += gas_steps * (open * cells * evaluations_per_cell_step + parcels * evaluations_per_exchange);
+    }
     if (!data.spray.nozzles.empty()) work += time * data.spray.parcels_per_second * evaluations_per_droplet;
-    out.wall_time = work / kernel_rate() * (1 + lost_per_rank * (ranks - 1)) / std::max(1, ranks);
+    work *= beside * (1 + lost_per_rank * (ranks - 1)) / std::max(1, ranks);
+    if (ranks > 1) work += gas_steps * waiting_per_gas_step;
+    out.wall_time = work / kernel_rate();
     add_warnings(data, out);
     return out;
 }

@@ -32,7 +32,7 @@ struct Forecast
     double cell_over_parcel = 0;  //!< narrowest cell edge over parcel diameter
     std::optional<Balance> balance;
     double memory = 0;     //!< bytes
-    double wall_time = 0;  //!< s on `ranks` cores of this machine; an order of magnitude
+    double wall_time = 0;  //!< s on `ranks` cores of this machine
     std::vector<std::string> warnings;
 };
 
