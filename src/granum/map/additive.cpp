@@ -118,19 +118,58 @@ VectorXd nearest_within(VectorXd const& middle, MatrixXd const& covariance, Matr
 {
     MatrixXd const reach = covariance * rows.transpose();  // unknown x constraint
     MatrixXd const among = rows * reach;
+    VectorXd const slack = rows * middle - least;
+    double const ridge = 1e-13 * among.diagonal().maxCoeff();  // limits that say the same twice
     VectorXd multipliers = VectorXd::Zero(least.size());
-    VectorXd slack = rows * middle - least;
-    constexpr int most_sweeps = 20000;
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-        double moved = 0;
-        for (Index k = 0; k < least.size(); ++k) {
-            double const change = std::max(-multipliers[k], -slack[k] / among(k, k));
-            if (change == 0) continue;
-            multipliers[k] += change;
-            slack += change * among.col(k);
-            moved = std::max(moved, std::abs(change) * among(k, k));
+    std::vector<Index> active;
+    std::vector<bool> barred(static_cast<std::size_t>(least.size()), false);  // that rounding threw out again
+    auto const on_limits = [&] {
+        auto const size = static_cast<Index>(active.size());
+        MatrixXd part(size, size);
+        VectorXd wanted(size);
+        for (Index i = 0; i < size; ++i) {
+            wanted[i] = -slack[active[static_cast<std::size_t>(i)]];
+            for (Index j = 0; j < size; ++j)
+                part(i, j) = among(active[static_cast<std::size_t>(i)], active[static_cast<std::size_t>(j)]);
+            part(i, i) += ridge;
         }
-        if (moved < tolerance) return middle + reach * multipliers;
+        return VectorXd(part.ldlt().solve(wanted));
+    };
+    long const most_steps = 20 * least.size() + 100;
+    for (long step = 0; step < most_steps; ++step) {
+        VectorXd const now = slack + among * multipliers;
+        Index worst = -1;
+        double off = tolerance;
+        for (Index k = 0; k < least.size(); ++k)
+            if (-now[k] > off && multipliers[k] == 0 && !barred[static_cast<std::size_t>(k)]) worst = k, off = -now[k];
+        if (worst < 0) {
+            if (now.minCoeff() < -std::max(1e3 * tolerance, 1e-6 * slack.cwiseAbs().maxCoeff())) break;
+            return middle + reach * multipliers;
+        }
+        active.push_back(worst);
+        // To the best point on these limits; those that would pull the other way are let go on the way there.
+        while (!active.empty()) {
+            VectorXd const best = on_limits();
+            double part = 1;
+            for (std::size_t i = 0; i < active.size(); ++i)
+                if (double const has = multipliers[active[i]], wants = best[static_cast<Index>(i)]; wants <= 0)
+                    part = std::min(part, has / (has - wants + 1e-300));
+            for (std::size_t i = 0; i < active.size(); ++i)
+                multipliers[active[i]] += part * (best[static_cast<Index>(i)] - multipliers[active[i]]);
+            if (part == 1) break;
+            std::size_t kept = 0;
+            double const nothing = 1e-14 * multipliers.maxCoeff();
+            for (Index const k : active) {
+                if (multipliers[k] > nothing) {
+                    active[kept++] = k;
+                    continue;
+                }
+                multipliers[k] = 0;
+                if (k == worst) barred[static_cast<std::size_t>(k)] = true;
+            }
+            active.resize(kept);
+        }
+        if (multipliers[worst] > 0) std::fill(barred.begin(), barred.end(), false);
     }
     throw base::NumericsError("no layer property within its limits and in its order was found");
 }

@@ -34,8 +34,9 @@ struct Additive
     Eigen::VectorXd at_nodes() const { return nodes.mean.array() + mean; }
 };
 
-//! The point nearest to `middle`, in the metric of `covariance`, where rows * x >= least. Hildreth's method: one
-//! multiplier after the other. Throws base::NumericsError where no point is found.
+//! The point nearest to `middle`, in the metric of `covariance`, where rows * x >= least: limits are taken up and let
+//! go one after the other (Lawson and Hanson, Solving Least Squares Problems, 1974, recalled). Throws
+//! base::NumericsError where no point is found.
 Eigen::VectorXd nearest_within(Eigen::VectorXd const& middle, Eigen::MatrixXd const& covariance,
                                Eigen::MatrixXd const& rows, Eigen::VectorXd const& least, double tolerance);
 }

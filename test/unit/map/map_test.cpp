@@ -141,6 +141,31 @@ TEST(NearestWithin, finds_the_corner_or_the_foot_of_the_perpendicular)
     EXPECT_NEAR(stretched[0], 2, 1e-9);
 }
 
+// A smooth curve whose ends lie beyond both limits, many nodes at them at once: within, and nearer than the curve cut
+// off.
+TEST(NearestWithin, bends_a_smooth_curve_into_its_limits)
+{
+    Eigen::Index const nodes = 60;
+    Eigen::MatrixXd covariance(nodes, nodes), rows = Eigen::MatrixXd::Zero(2 * nodes, nodes);
+    VectorXd middle(nodes), least(2 * nodes);
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+        for (Eigen::Index j = 0; j < nodes; ++j)
+            covariance(i, j) = std::exp(-std::pow(static_cast<double>(i - j) / 12.0, 2)) + (i == j ? 1e-7 : 0);
+        middle[i] = 3.0 * static_cast<double>(i) / (nodes - 1) - 1;
+        rows(i, i) = 1, rows(nodes + i, i) = -1;
+        least[i] = 0, least[nodes + i] = -1;
+    }
+    auto const found = nearest_within(middle, covariance, rows, least, 1e-9);
+    EXPECT_GT(found.minCoeff(), -1e-6);
+    EXPECT_LT(found.maxCoeff(), 1 + 1e-6);
+    auto const distance = [&](VectorXd const& x) { return (x - middle).dot(covariance.llt().solve(x - middle)); };
+    EXPECT_LT(distance(found), distance(middle.cwiseMax(0).cwiseMin(1)));
+    // No step towards any point within is shorter: the gradient is across the limits that are met.
+    VectorXd const pull = covariance.llt().solve(found - middle);
+    for (double const inner : {0.2, 0.5, 0.8})
+        EXPECT_GT(pull.dot(VectorXd::Constant(nodes, inner) - found), -1e-3 * std::abs(distance(found)));
+}
+
 Axes time_alone()
 {
     return {{{.variable = "drying_time", .logarithmic = true, .low = 0.1, .high = 10, .nodes = 12}}};
