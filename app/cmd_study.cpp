@@ -50,6 +50,7 @@ void add_study(CLI::App& program, Action& action)
                 fmt::print("{}\n", line);
                 std::fflush(stdout);
             };
+            study::write_cases(study, folder);
             // Others like this one take points that nobody is at.
             std::vector<pid_t> others;
             for (int k = 1; k < jobs; ++k) {

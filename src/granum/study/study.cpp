@@ -126,17 +126,24 @@ std::unique_ptr<io::FolderLock> claimed(std::string const& folder, Point const& 
 }
 }
 
-Campaign run(Study const& study, std::string const& folder, Runner const& runner,
-             std::function<void(std::string const&)> const& said)
+std::vector<std::string> write_cases(Study const& study, std::string const& folder)
 {
     fs::create_directories(fs::path(folder) / "cases");
-    // All cases first: what is wrong with the last must not wait for the runs before it.
     std::vector<std::string> files;
     for (auto const& point : study.points) {
         files.push_back((fs::path(folder) / "cases" / (point.name + ".toml")).string());
-        io::replace_text(files.back(), case_of(study, point));
+        auto const text = case_of(study, point);
+        // Others may be reading them.
+        if (!fs::exists(files.back()) || io::read_text(files.back()) != text) io::replace_text(files.back(), text);
         sim::read_case(files.back());
     }
+    return files;
+}
+
+Campaign run(Study const& study, std::string const& folder, Runner const& runner,
+             std::function<void(std::string const&)> const& said)
+{
+    auto const files = write_cases(study, folder);
     Campaign out;
     for (std::size_t k = 0; k < study.points.size(); ++k) {
         auto const& point = study.points[k];

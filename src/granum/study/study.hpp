@@ -53,6 +53,10 @@ struct Outcome
     double solids_error = 0, water_error = 0;  //!< of the ledgers
 };
 
+//! Writes the cases of all points into `folder` and checks them: what is wrong with the last must not wait for the runs
+//! before it. Their files, in the order of the points. Throws base::CaseError.
+std::vector<std::string> write_cases(Study const& study, std::string const& folder);
+
 struct Campaign
 {
     std::vector<Outcome> outcomes;  //!< of the points that are done, in their order
