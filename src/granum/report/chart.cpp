@@ -106,16 +106,32 @@ struct LegendEntry
     Stroke stroke;
 };
 
-//! Samples of the lines and their names in one row above the chart.
-std::string legend(std::vector<LegendEntry> const& entries)
+constexpr double row_height = 18;
+
+//! Samples of the lines and their names above the chart, in as many rows as they need; the last is at its place, the
+//! others above it, and `rows` tells how many.
+std::string legend(std::vector<LegendEntry> const& entries, int& rows)
 {
-    std::string out;
+    auto const length = [](LegendEntry const& entry) {
+        return 31 + 6.3 * static_cast<double>(entry.label.size()) + 18;
+    };
+    std::vector<std::pair<double, int>> places;
     double at = left;
+    rows = 1;
     for (auto const& entry : entries) {
-        out += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"16\" y2=\"16\" stroke=\"{}\" stroke-width=\"2\"{}/>",
-                           at, at + 26, entry.colour, dashes(entry.stroke));
-        out += fmt::format("<text x=\"{:.1f}\" y=\"20\">{}</text>", at + 31, escape(entry.label));
-        at += 31 + 6.3 * static_cast<double>(entry.label.size()) + 18;
+        if (at > left && at + length(entry) > width) at = left, ++rows;
+        places.emplace_back(at, rows);
+        at += length(entry);
+    }
+    std::string out;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        auto const [x, row] = places[k];
+        double const y = 16 - row_height * (rows - row);
+        out += fmt::format(
+            "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
+            "stroke-width=\"2\"{}/>",
+            x, x + 26, y, y, entries[k].colour, dashes(entries[k].stroke));
+        out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 31, y + 4, escape(entries[k].label));
     }
     return out;
 }
@@ -148,10 +164,14 @@ std::string path_of(Curve const& curve, Scale const& x, Scale const& y)
     return out;
 }
 
-std::string open_svg(std::string const& title)
+//! An svg of what is drawn and its legend, as high as both need.
+std::string whole_svg(std::string const& title, std::string const& drawn, std::vector<LegendEntry> const& entries)
 {
-    return fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\"><title>{}</title>", width, height,
-                       escape(title));
+    int rows = 1;
+    auto const names = legend(entries, rows);
+    double const more = row_height * (rows - 1);
+    return fmt::format("<svg class=\"chart\" viewBox=\"0 {} {} {}\" role=\"img\"><title>{}</title>{}{}</svg>", -more,
+                       width, height + more, escape(title), drawn, names);
 }
 }
 
@@ -186,7 +206,7 @@ std::string svg(CurveChart const& chart)
     Scale const across{x.low, x.high > x.low ? x.high : x.low + 1, left, width - right, chart.x.logarithmic};
     Scale const up{from_zero ? 0 : y.low - pad, y.high + pad, height - bottom, top};
 
-    std::string out = open_svg(chart.y.label) + frame(across, up, chart.x.label, chart.y.label);
+    std::string out = frame(across, up, chart.x.label, chart.y.label);
     std::vector<LegendEntry> entries;
     for (auto const& curve : chart.curves) {
         out +=
@@ -202,7 +222,7 @@ std::string svg(CurveChart const& chart)
     }
     for (auto const& level : chart.levels)
         if (std::isfinite(level.value)) entries.push_back({level.label, "#222", Stroke::dashed});
-    return out + legend(entries) + "</svg>";
+    return whole_svg(chart.y.label, out, entries);
 }
 
 std::string svg(HistogramChart const& chart)
@@ -238,7 +258,7 @@ std::string svg(HistogramChart const& chart)
     double const tallest = *std::max_element(share.begin(), share.end());
     Scale const up{0, 1.08 * tallest, height - bottom, top};
 
-    std::string out = open_svg(chart.x.label);
+    std::string out;
     std::vector<LegendEntry> entries;
     if (chart.band) {
         double const a = across(chart.band->first), b = across(chart.band->second);
@@ -262,7 +282,7 @@ std::string svg(HistogramChart const& chart)
             across(chart.marks[m].value), top, height - bottom, dashes(stroke));
         entries.push_back({chart.marks[m].label, "#a33", stroke});
     }
-    return out + legend(entries) + "</svg>";
+    return whole_svg(chart.x.label, out, entries);
 }
 
 std::string split_bar(std::vector<Share> const& shares)
