@@ -30,7 +30,7 @@ PREFIXES = {
         "read_outlet": ["outlet."],
         "read_gas_walls": ["gas.wall."],
     },
-    "case_output.cpp": {"read_boxes": ["output.box."], "read_probes": ["output.probe."]},
+    "case_output.cpp": {"read_boxes": ["output.box."], "read_probes": ["output.probe."], "read_own_name": ["output.box.", "output.probe."]},
     "case_phases.cpp": {"read_phases": ["phase."]},
     "case_sizes.cpp": {"read_table": ["granules.size."], "read_list": ["granules.size."], "read_sizes": ["granules.size."]},
     "case_solid.cpp": {"Reader": ["apparatus.solid."]},

@@ -30,6 +30,16 @@ void read_time(io::CaseFile& file, Case& data, Purpose purpose)
 
 namespace
 {
+//! Name of the entry at `key` of a list, which heads columns of `table`: no other of the list has it.
+std::string read_own_name(io::CaseFile& file, std::string const& key, std::string const& fallback, char const* table,
+                          std::set<std::string>& others)
+{
+    auto name = file.words(key + "name", fallback, std::string("in ") + table);
+    check_column_name(file, key + "name", name);
+    if (!others.insert(name).second) file.mistake(key + "name", "is that of another one too");
+    return name;
+}
+
 void read_boxes(io::CaseFile& file, Case& data)
 {
     std::set<std::string> names;
@@ -37,9 +47,7 @@ void read_boxes(io::CaseFile& file, Case& data)
     for (int i = 0; i < count; ++i) {
         auto const key = fmt::format("output.box[{}].", i);
         BoxCase box;
-        box.name = file.words(key + "name", fmt::format("box-{}", i), "in boxes.csv");
-        check_column_name(file, key + "name", box.name);
-        if (!names.insert(box.name).second) file.mistake(key + "name", "is that of another box too");
+        box.name = read_own_name(file, key, fmt::format("box-{}", i), "boxes.csv", names);
         box.region = read_box(file, key, data.chamber, "corner of the box to look into");
         data.output.boxes.push_back(std::move(box));
     }
@@ -52,9 +60,7 @@ void read_probes(io::CaseFile& file, Case& data)
     for (int i = 0; i < count; ++i) {
         auto const key = fmt::format("output.probe[{}].", i);
         ProbeCase probe;
-        probe.name = file.words(key + "name", fmt::format("probe-{}", i), "in probes.csv");
-        check_column_name(file, key + "name", probe.name);
-        if (!names.insert(probe.name).second) file.mistake(key + "name", "is that of another probe too");
+        probe.name = read_own_name(file, key, fmt::format("probe-{}", i), "probes.csv", names);
         bool const line = file.has(key + "from") || file.has(key + "to");
         if (line) {
             probe.from = file.vector(key + "from", Dimension::length, std::nullopt, "where the line begins");

@@ -134,15 +134,15 @@ std::vector<std::string> causes_of(Comparison const& comparison, std::string con
 {
     auto const data = sim::read_case(sim::case_file_of(folder)).data;
     auto const summary = io::read_summary(folder);
-    Steady steady;
-    if (data.gas.present && !data.gas.inlets.empty()) steady.dry_flow = sim::balance(data).dry_mass_flow;
+    RunState run;
+    if (data.gas.present && !data.gas.inlets.empty()) run.dry_flow = sim::balance(data).dry_mass_flow;
     double const weight = io::number_at(summary, "bed.weight_over_area_Pa").value_or(0);
-    if (weight > 0) steady.area = data.granules.mass * 9.81 / weight;
+    if (weight > 0) run.area = data.granules.mass * 9.81 / weight;
     double const sprayed = io::number_at(summary, "water.sprayed_last_two_thirds_kg").value_or(0);
     double const evaporated = io::number_at(summary, "water.evaporated_last_two_thirds_kg").value_or(0);
-    steady.water_accumulates = evaporated < 0.97 * sprayed;
-    steady.temperature = io::number_at(summary, "result.outlet_temperature_K").value_or(0);
-    steady.humidity = io::number_at(summary, "result.outlet_humidity").value_or(0);
+    run.water_accumulates = evaporated < 0.97 * sprayed;
+    run.temperature = io::number_at(summary, "result.outlet_temperature_K").value_or(0);
+    run.humidity = io::number_at(summary, "result.outlet_humidity").value_or(0);
     Offsets offsets;
     auto const take = [&](char const* name, std::optional<double>& into) {
         for (auto const& one : comparison.quantities)
@@ -152,7 +152,7 @@ std::vector<std::string> causes_of(Comparison const& comparison, std::string con
     take("outlet_temperature", offsets.outlet_temperature), take("outlet_humidity", offsets.outlet_humidity);
     take("bed_temperature", offsets.bed_temperature), take("pressure_drop", offsets.pressure_drop);
     take("bed_moisture", offsets.bed_moisture);
-    return likely_causes(offsets, steady);
+    return likely_causes(offsets, run);
 }
 }
 

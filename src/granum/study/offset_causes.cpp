@@ -25,7 +25,7 @@ char const* more(double difference)
 }
 }
 
-std::vector<std::string> likely_causes(Offsets const& o, Steady const& steady)
+std::vector<std::string> likely_causes(Offsets const& o, RunState const& run)
 {
     std::vector<std::string> out;
     if (o.inlet_temperature)
@@ -37,29 +37,29 @@ std::vector<std::string> likely_causes(Offsets const& o, Steady const& steady)
         out.push_back(fmt::format("The case sprays {:.2g} g/min {} than the plant: set spray.rate to what was logged.",
                                   6e4 * std::abs(*o.spray_rate), more(*o.spray_rate)));
     if (o.outlet_humidity) {
-        double const water = steady.dry_flow * *o.outlet_humidity;
+        double const water = run.dry_flow * *o.outlet_humidity;
         out.push_back(fmt::format(
             "{:.3g} g/min {} water leaves with the run's air. {}", 6e4 * std::abs(water), more(water),
             water > 0 ? "In the plant less is sprayed than its pump says, water stays in the bed or on filters, or air "
                         "that was not counted dilutes the outlet (more flow than stated, leaks at the filter)."
-            : steady.water_accumulates
+            : run.water_accumulates
                 ? "The run's bed still becomes wetter: let it run longer."
                 : "In the plant more water evaporates than the case sprays: pump rate, solids of the "
                   "liquid, humidity of the inlet air, or less flow of air than stated."));
     }
-    if (o.outlet_temperature && steady.dry_flow > 0) {
-        double const humidity = steady.humidity - o.outlet_humidity.value_or(0);
-        double const plant = steady.temperature - *o.outlet_temperature;
+    if (o.outlet_temperature && run.dry_flow > 0) {
+        double const humidity = run.humidity - o.outlet_humidity.value_or(0);
+        double const plant = run.temperature - *o.outlet_temperature;
         // What the plant's water takes is no loss: only enthalpy that is missing is.
-        double const heat = steady.dry_flow * (per_dry(steady.temperature, steady.humidity) - per_dry(plant, humidity));
-        double const water = o.outlet_humidity.value_or(0) * steady.dry_flow;
+        double const heat = run.dry_flow * (per_dry(run.temperature, run.humidity) - per_dry(plant, humidity));
+        double const water = o.outlet_humidity.value_or(0) * run.dry_flow;
         if (heat > 0)
             out.push_back(
                 fmt::format("The plant's air leaves with {:.3g} W less enthalpy{}: heat lost through walls and piping. "
                             "gas.heat_loss lets the run lose it: {:.2g} W/K, with surroundings of 20 degC, over the "
                             "area of the walls.",
                             heat, water != 0 ? " (water taken into account)" : "",
-                            heat / std::max(1.0, steady.temperature - (math::zero_celsius + 20))));
+                            heat / std::max(1.0, run.temperature - (math::zero_celsius + 20))));
         else
             out.push_back(fmt::format(
                 "The plant's air leaves with {:.3g} W more enthalpy than the run's: a warmer or larger flow of air "
@@ -76,7 +76,7 @@ std::vector<std::string> likely_causes(Offsets const& o, Steady const& steady)
     if (o.pressure_drop)
         out.push_back(fmt::format(
             "The run's bed costs {:.3g} Pa {} pressure: {:.2g} kg of granules. {}", std::abs(*o.pressure_drop),
-            more(*o.pressure_drop), std::abs(*o.pressure_drop) * steady.area / 9.81,
+            more(*o.pressure_drop), std::abs(*o.pressure_drop) * run.area / 9.81,
             *o.pressure_drop < 0 ? "The plant's reading may hold the plate and filters too: take off what it shows for "
                                    "the empty chamber."
                                  : "Granules may cling to the filter or lie in dead corners, or the plant's bed is "

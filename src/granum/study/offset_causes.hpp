@@ -14,8 +14,8 @@ struct Offsets
     std::optional<double> outlet_temperature, outlet_humidity, bed_temperature, pressure_drop, bed_moisture;
 };
 
-//! The plant's steady state as far as it was logged, and what the run knows.
-struct Steady
+//! What the run knows of its own steady state.
+struct RunState
 {
     double dry_flow = 0;             //!< kg/s of dry gas
     double temperature = 0;          //!< K of the run's outlet, steady
@@ -25,5 +25,5 @@ struct Steady
 };
 
 //! Sentences, the most certain first. Empty where all offsets are.
-std::vector<std::string> likely_causes(Offsets const& offsets, Steady const& steady);
+std::vector<std::string> likely_causes(Offsets const& offsets, RunState const& run);
 }
