@@ -43,7 +43,10 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
     base::require(kernel != nullptr, "this processor has no kernel called \"{}\"", settings.kernel);
     auto const& laws = settings.laws;
     for (std::uint32_t a = 0; a < laws.materials.size(); ++a)
-        for (std::uint32_t b = 0; b < laws.materials.size(); ++b) pairings.push_back(laws.effective(a, b));
+        for (std::uint32_t b = 0; b < laws.materials.size(); ++b) {
+            pairings.push_back(laws.effective(a, b));
+            restitutions.push_back(laws.pair(a, b).restitution);
+        }
     rules = {.normal_index = laws.normal.index(),
              .tangential_index = laws.tangential.index(),
              .rolling_index = laws.rolling.index(),
@@ -55,7 +58,9 @@ Engine::Inside::Inside(Settings given, par::Partition partition, par::Communicat
              .lever_shift = laws.lever == Lever::contact_point ? 0.5 : 0.0,
              .inertia = std::holds_alternative<law::contact::EpsdDashpot>(laws.rolling),
              .ledger = settings.energy_ledger,
-             .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0)};
+             .columns = history_columns(laws) + (settings.energy_ledger ? 2 : 0),
+             .restitution = restitutions.data(),
+             .wear_threshold = settings.wear_threshold};
     pairs.shape(rules.columns);
     walls.shape(rules.columns);
     frame.scale_to(laws);

@@ -46,6 +46,7 @@ struct Settings
     bool energy_ledger = true;                        //!< account for what contacts store and dissipate
     std::string kernel;         //!< "avx512", "avx2", "sse4" or "scalar" (the plain loops); empty: the fastest here
     double largest_radius = 0;  //!< of those that will ever come, m: the unit of energies; 0: of those there at first
+    double wear_threshold = 0;  //!< J per kg of granule; what a collision dissipates beyond it counts as wear
     int balance_every = 0;      //!< rebuilds between looks at the balance of work; 0: space stays cut as it was given
 };
 

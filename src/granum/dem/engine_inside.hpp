@@ -18,6 +18,7 @@ struct Engine::Inside
     Halo halo;
     kernel::Kernel const* kernel;
     std::vector<law::contact::Pair<double>> pairings;
+    std::vector<double> restitutions;  // of pairings
     kernel::Rules rules;
 
     Frame frame;

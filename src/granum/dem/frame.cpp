@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace granum::dem
 {
@@ -64,6 +65,7 @@ void Frame::resize(std::size_t rows)
     bodies.resize(rows + 2);
     material.resize(rows + 2);
     id.resize(rows);
+    if (!collisions.empty()) collisions.resize(rows + 2);
     for (std::size_t k = rows; k < rows + 2; ++k) {
         bodies[k] = {};
         bodies[k].position[0] = k == rows ? 1e30 : -1e30;
@@ -75,6 +77,7 @@ void Frame::resize(std::size_t rows)
 void Frame::take(particle::Store const& granules)
 {
     owned = granules.owned;
+    collisions.assign(granules.groups.collisions ? owned + 2 : 0, {});
     resize(owned);
     refresh(granules);
     for (std::size_t row = 0; row < owned; ++row) {
@@ -90,7 +93,7 @@ void Frame::refresh(particle::Store const& granules)
     for (std::size_t row = 0; row < owned; ++row) take_row(bodies[row], granules, row, unit_force, unit_power);
 }
 
-void Frame::give(particle::Store& granules) const
+void Frame::give(particle::Store& granules)
 {
     for (std::size_t row = 0; row < owned; ++row) {
         granules.position[row] = vec(bodies[row].position);
@@ -98,6 +101,13 @@ void Frame::give(particle::Store& granules) const
         granules.spin[row] = vec(bodies[row].spin);
         granules.force[row] = vec(bodies[row].force);
         granules.torque[row] = vec(bodies[row].torque);
+    }
+    if (collisions.empty()) return;
+    for (std::size_t row = 0; row < owned; ++row) {
+        auto const seen = std::exchange(collisions[row], {});
+        granules.collisions[row] += seen.count;
+        granules.collision_speed[row] += seen.speed;
+        granules.collision_wear[row] += seen.wear;
     }
 }
 

@@ -31,19 +31,21 @@ struct Frame
     base::AlignedVector<kernel::Body> bodies;
     std::vector<std::uint8_t> material;
     std::vector<Id> id;
+    std::vector<kernel::Collisions> collisions;  //!< of each row since give(); empty where the store does not want them
     std::size_t owned = 0;
     double unit_force = 1;  //!< force at an overlap of a thousandth of the radius over the radius^unit_power
     int unit_power = 2;
 
     std::size_t rows() const { return id.size(); }
+    kernel::Collisions* counted() { return collisions.empty() ? nullptr : collisions.data(); }
     std::uint32_t lonely() const { return static_cast<std::uint32_t>(rows()); }
 
     //! Takes rows [0, owned) as the store has them, with their forces and torques. Drops what lies behind.
     void take(particle::Store const& granules);
     //! Takes motion, radius and mass of owned rows, which stay where they are.
     void refresh(particle::Store const& granules);
-    //! Gives motion, forces and torques of owned rows to the store.
-    void give(particle::Store& granules) const;
+    //! Gives motion, forces, torques and collisions of owned rows to the store.
+    void give(particle::Store& granules);
     //! Makes room for rows behind the owned ones, up to `rows` in all, and closes the end.
     void resize(std::size_t rows);
 

@@ -152,7 +152,8 @@ void PairList::run(Layers::Range const& bins, kernel::Kernel const& kernel, kern
                   .history = history_.data() + first * columns_ * block,
                   .touching = touching_.data() + first,
                   .owned = frame.owned,
-                  .dt = dt},
+                  .dt = dt,
+                  .collisions = frame.counted()},
                  seen);
 }
 }

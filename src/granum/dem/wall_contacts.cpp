@@ -384,7 +384,8 @@ void WallContacts::run(Layers::Range const& units, kernel::Kernel const& kernel,
                   .touching = touching_.data() + block_begin_[units.begin],
                   .dt = dt,
                   .force = {f[0], f[1], f[2]},
-                  .torque = {t[0], t[1], t[2]}},
+                  .torque = {t[0], t[1], t[2]},
+                  .collisions = frame.counted()},
                  seen);
 }
 

@@ -32,12 +32,14 @@ enum class Group : std::uint8_t
     added_mass,  //!< gas that the parcel carries along (virtual mass)
     turning,     //!< what the gas does to the parcel's spin
     eddies,      //!< what the parcel sees of the gas's turbulence
+    collisions,  //!< contacts that began
 };
 
-//! The groups of columns that a store has besides the core. The last three go with gas only.
+//! The groups of columns that a store has besides the core. The last four go with gas only.
 struct Groups
 {
-    bool parcel = true, gas = true, process = true, added_mass = false, turning = false, eddies = false;
+    bool parcel = true, gas = true, process = true, added_mass = false, turning = false, eddies = false,
+         collisions = false;
 
     bool has(Group group) const
     {
@@ -54,6 +56,8 @@ struct Groups
                 return turning;
             case Group::eddies:
                 return eddies;
+            case Group::collisions:
+                return collisions;
             case Group::core:
                 break;
         }
@@ -141,6 +145,13 @@ struct Store
     Column<double> enthalpy{{"enthalpy", "J", false, false, Group::process}};       //!< stored; zero at 0 degC, liquid
     Column<double> temperature{{"temperature", "K", false, true, Group::process}};  //!< follows from the enthalpy
 
+    // Collisions, which whoever reads them sets back to zero.
+    Column<double> collisions{{"collisions", "1", false, false, Group::collisions}};  //!< that began
+    Column<double> collision_speed{
+        {"collision_speed", "m/s", false, false, Group::collisions}};  //!< changes of velocity
+    Column<double> collision_wear{
+        {"collision_wear", "J/kg", false, false, Group::collisions}};  //!< dissipated, see dem
+
     Groups groups{};  //!< changed by `keep` only
     std::size_t owned = 0;
 
@@ -169,7 +180,7 @@ void for_every_column(StoreType& store, Visitor&& visit)
     visit(store.count), visit(store.diameter), visit(store.core_mass), visit(store.core_diameter),
         visit(store.layer_mass);
     visit(store.layer_volume), visit(store.water), visit(store.absorbed), visit(store.solute), visit(store.enthalpy);
-    visit(store.temperature);
+    visit(store.temperature), visit(store.collisions), visit(store.collision_speed), visit(store.collision_wear);
 }
 
 //! Calls visit(column) for every column that the store has, in a fixed order.

@@ -19,6 +19,7 @@ struct State
 {
     particle::Id id;
     Vec3 position, velocity, spin;
+    double collisions, collision_speed, collision_wear;
 };
 
 //! FNV-1a of the states of all granules in the order of their identities, on every rank.
@@ -26,8 +27,13 @@ std::uint64_t hash_of(scene::Scene const& scene)
 {
     std::vector<std::byte> mine;
     for (std::size_t row = 0; row < scene.granules.owned; ++row) {
-        State const state{scene.granules.id[row], scene.granules.position[row], scene.granules.velocity[row],
-                          scene.granules.spin[row]};
+        State const state{scene.granules.id[row],
+                          scene.granules.position[row],
+                          scene.granules.velocity[row],
+                          scene.granules.spin[row],
+                          scene.granules.collisions[row],
+                          scene.granules.collision_speed[row],
+                          scene.granules.collision_wear[row]};
         auto const* bytes = reinterpret_cast<std::byte const*>(&state);
         mine.insert(mine.end(), bytes, bytes + sizeof(State));
     }
@@ -53,6 +59,7 @@ std::uint64_t drum_on(par::Communicator const& comm, long& moved)
     scene.settings.periodic = {};
     for (double const y : {0.0, drum.length}) scene.add_plane({0, y, 0}, {0, y > 0 ? -1.0 : 1.0, 0});
     scene.comm = comm;
+    scene.granules.keep({.collisions = true});
     auto& granules = scene.granules;
     if (!comm.root()) granules.resize(0);  // the others get theirs by the first cut
     par::Space const space{{scene.settings.lower, scene.settings.upper}, scene.settings.periodic};
@@ -73,6 +80,9 @@ std::uint64_t drum_on(par::Communicator const& comm, long& moved)
             moved += !std::binary_search(before.begin(), before.end(), granules.id[row]);
     }
     EXPECT_GT(engine.watch().contacts, 0);
+    double met = 0;
+    for (std::size_t row = 0; row < granules.owned; ++row) met += granules.collisions[row];
+    EXPECT_GT(comm.sum(met), 1000);
     return hash_of(scene);
 }
 

@@ -33,6 +33,7 @@ struct Contacts
     Laws laws;
     Frame frame;
     std::vector<law::contact::Pair<double>> pairings;
+    std::vector<double> restitutions;
     kernel::Rules rules;
     base::AlignedVector<kernel::PairBlock> pairs;
     base::AlignedVector<double> history;
@@ -56,7 +57,10 @@ struct Contacts
                            .rolling_friction = between(0, 0.3),
                            .rolling_damping = between(0, 0.5)});
         for (std::uint32_t a = 0; a < materials; ++a)
-            for (std::uint32_t b = 0; b < materials; ++b) pairings.push_back(laws.effective(a, b));
+            for (std::uint32_t b = 0; b < materials; ++b) {
+                pairings.push_back(laws.effective(a, b));
+                restitutions.push_back(laws.pair(a, b).restitution);
+            }
         auto const columns = [](auto const& law) {
             return std::visit([](auto const& one) { return static_cast<std::size_t>(one.history); }, law);
         };
@@ -75,7 +79,9 @@ struct Contacts
                  .lever_shift = *rc::gen::element(0.0, 0.5),
                  .inertia = true,
                  .ledger = ledger,
-                 .columns = columns(laws.tangential) + columns(laws.rolling) + (ledger ? 2 : 0)};
+                 .columns = columns(laws.tangential) + columns(laws.rolling) + (ledger ? 2 : 0),
+                 .restitution = restitutions.data(),
+                 .wear_threshold = between(0, 0.1)};
         place(static_cast<std::size_t>(*rc::gen::inRange(1, 40)), materials);
     }
 
@@ -127,7 +133,8 @@ struct Contacts
                 .history = history.data(),
                 .touching = touching.data(),
                 .owned = frame.owned - 1,
-                .dt = dt};
+                .dt = dt,
+                .collisions = nullptr};
     }
 };
 
@@ -144,6 +151,7 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
         auto plain_bodies = bodies;
         auto plain_history = history;
         auto plain_touching = touching;
+        std::vector<kernel::Collisions> collisions(bodies.size()), plain_collisions = collisions;
         for (int step = 0; step < steps; ++step) {
             // Histories follow the plain loops, so that each step is compared by itself.
             history = plain_history;
@@ -152,14 +160,19 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
             auto pass = contacts.pass(dt);
             kernel::Seen seen, plain;
             pass.bodies = bodies.data(), pass.history = history.data(), pass.touching = touching.data();
+            pass.collisions = collisions.data();
             fast->pairs(pass, seen);
             pass.bodies = plain_bodies.data(), pass.history = plain_history.data(),
-            pass.touching = plain_touching.data();
+            pass.touching = plain_touching.data(), pass.collisions = plain_collisions.data();
             kernel::scalar().pairs(pass, plain);
             RC_ASSERT(touching == plain_touching);
             RC_ASSERT(seen.contacts == plain.contacts);
             RC_ASSERT(std::abs(seen.largest_overlap - plain.largest_overlap) <= 1e-14);
             for (std::size_t row = 0; row < contacts.frame.owned; ++row) {
+                auto const &met = collisions[row], &plainly = plain_collisions[row];
+                RC_ASSERT(met.count == plainly.count);
+                RC_ASSERT(std::abs(met.speed - plainly.speed) <= 1e-11);
+                RC_ASSERT(std::abs(met.wear - plainly.wear) <= 1e-11);
                 auto const force = [](kernel::Body const& body) { return Frame::vec(body.force); };
                 auto const torque = [](kernel::Body const& body) { return Frame::vec(body.torque); };
                 // The force at an overlap of a thousandth of this radius, or what the spring has at the true overlap

@@ -13,7 +13,7 @@ using namespace granum::particle;
 TEST(Store, for_each_column_lists_every_column_once)
 {
     Store granules;
-    granules.keep({.added_mass = true, .turning = true, .eddies = true});
+    granules.keep({.added_mass = true, .turning = true, .eddies = true, .collisions = true});
     std::set<std::string_view> names;
     std::size_t columns = 0, bytes = 0;
     for_each_column(granules, [&](auto const& column) {
@@ -46,7 +46,7 @@ TEST(Store, without_a_group_spends_no_memory_on_it_and_knows_what_a_row_stands_f
     EXPECT_EQ(granules.drag_rate.values, std::vector<double>(5));
     EXPECT_TRUE(granules.temperature.values.empty());
     EXPECT_TRUE(granules.added_mass.values.empty() && granules.spin_rate.values.empty());
-    granules.keep({.added_mass = true, .turning = true, .eddies = true});
+    granules.keep({.added_mass = true, .turning = true, .eddies = true, .collisions = true});
     EXPECT_EQ(granules.added_mass.values, std::vector<double>(5));
     EXPECT_EQ(granules.spin_impulse.values.size(), 5u);
 }
@@ -65,7 +65,7 @@ TEST(Store, refuses_to_read_a_column_it_does_not_have)
 Store numbered(std::size_t rows)
 {
     Store granules;
-    granules.keep({.added_mass = true, .turning = true, .eddies = true});
+    granules.keep({.added_mass = true, .turning = true, .eddies = true, .collisions = true});
     granules.resize(rows);
     granules.owned = rows;
     double next = 1;

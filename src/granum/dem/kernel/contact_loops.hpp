@@ -1,5 +1,6 @@
 // The vectorised loops over contacts, and of the search for them. Included by one source per instruction set, see
 // lanes.hpp.
+#include "granum/dem/kernel/collisions.hpp"
 #include "granum/dem/kernel/kernel.hpp"
 #include "granum/dem/kernel/lanes.hpp"
 
@@ -402,6 +403,7 @@ HWY_FLATTEN void pairs(PairPass const& in, Seen& seen)
                 seat = 0;
             }
         }
+        if (in.collisions && (now & ~before) != 0 && in.dt > 0) collide(in, b, now & ~before);
         in.touching[b] = static_cast<std::uint8_t>(now);
     }
     if (seat == 1) {
@@ -495,6 +497,7 @@ HWY_FLATTEN void walls(WallPass const& in, Seen& seen)
                 seat = 0;
             }
         }
+        if (in.collisions && (now & ~before) != 0 && in.dt > 0) collide(in, b, now & ~before);
         in.touching[b] = static_cast<std::uint8_t>(now);
     }
     if (seat == 1) {

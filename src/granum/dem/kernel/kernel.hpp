@@ -64,7 +64,18 @@ struct Rules
     //! Energies are summed in two parts, each in multiples of a power of two, so that these sums know no order either:
     //! 1.5 * 2^52 times the coarse and the fine one, J.
     double coarse_energy = 0, fine_energy = 0;
-    std::size_t columns = 6;  //!< of history
+    std::size_t columns = 6;              //!< of history
+    double const* restitution = nullptr;  //!< per pairing, of collisions that are counted
+    double wear_threshold = 0;            //!< J/kg
+};
+
+//! The collisions of a granule (contacts that began) since somebody looked. All in whole multiples of powers of two, so
+//! that sums know no order.
+struct Collisions
+{
+    double count = 0;
+    double speed = 0;  //!< sum of the changes of its velocity, m/s
+    double wear = 0;   //!< sum of what they dissipate in it beyond Rules::wear_threshold, J per kg of it
 };
 
 //! Energies of contacts, J, summed in two parts, each in multiples of its quantum (Rules::coarse_energy): neither the
@@ -114,6 +125,7 @@ struct PairPass
     std::uint8_t* touching;  //!< one bit per contact
     std::size_t owned;       //!< rows from here on belong to other ranks
     double dt;               //!< s; 0 leaves histories as they are
+    Collisions* collisions;  //!< of each row; null: not counted
 };
 
 //! Contacts with walls, whose geometry was found before: everything per place, padded to whole blocks.
@@ -134,6 +146,7 @@ struct WallPass
     double dt;
     double* force[3];   //!< on the granule, N
     double* torque[3];  //!< on the granule about its centre, N m
+    Collisions* collisions;
 };
 
 //! What the held gas and gravity do to the velocity of a granule in a kick, or the gas to its spin: with the force F of

@@ -1,5 +1,5 @@
 // The plain loops that the vectorised ones are tested against: one contact after the other, as it is read in a book.
-#include "granum/dem/kernel/kernel.hpp"
+#include "granum/dem/kernel/collisions.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,6 +98,7 @@ void pair_pass(PairPass const& in, Seen& seen)
                 in.touching[b] = static_cast<std::uint8_t>(in.touching[b] & ~bit);
                 continue;
             }
+            if (in.collisions && (in.touching[b] & bit) == 0 && in.dt > 0) collide(in, b, bit);
             in.touching[b] = static_cast<std::uint8_t>(in.touching[b] | bit);
             ++seen.contacts;
             double const distance = std::sqrt(distance2), overlap = reach - distance;
@@ -143,6 +144,7 @@ void wall_pass(WallPass const& in, Seen& seen)
             in.touching[b] = static_cast<std::uint8_t>(in.touching[b] & ~bit);
             continue;
         }
+        if (in.collisions && (in.touching[b] & bit) == 0 && in.dt > 0) collide(in, b, bit);
         in.touching[b] = static_cast<std::uint8_t>(in.touching[b] | bit);
         ++seen.contacts;
         auto const i = row_of(in.granule[place]);
