@@ -23,8 +23,9 @@ struct Deposit
     law::deposit::Crystals crystals{};  //!< in one cap
     double time = 0;                    //!< s on the granule
     double gas_temperature = 0, gas_humidity = 0, drying_potential = 0, granule_temperature = 0,
-           slip = 0;  //!< integrals over time
-    Event record{};   //!< impact part filled
+           slip = 0;                   //!< integrals over time
+    double contacts = 0, impulse = 0;  //!< of its granule since, see sim/collisions.cpp
+    Event record{};                    //!< impact part filled
 };
 
 //! Deposits by granule identity; identities run from 0 to a known number.

@@ -133,6 +133,8 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter, doub
     event.mean_drying_potential = deposit.drying_potential / time;
     event.mean_granule_temperature = deposit.granule_temperature / time;
     event.mean_slip = deposit.slip / time;
+    event.wet_contacts = deposit.contacts;
+    event.wet_impulse = deposit.impulse;
     // Without the trace, which leaves at once at the end.
     double const foot = math::pi * deposit.base_radius * deposit.base_radius;
     event.mean_flux =

@@ -14,6 +14,7 @@
 #include "granum/law/deposit/rates.hpp"
 #include "granum/law/deposit/solidification.hpp"
 #include "granum/law/deposit/stages.hpp"
+#include "granum/law/layer/abrasion.hpp"
 #include "granum/law/vapour/sorption.hpp"
 #include "granum/law/wetting/imbibition.hpp"
 #include "granum/particle/store.hpp"
@@ -46,6 +47,7 @@ struct Settings
     law::deposit::AnyCrystallisation crystallisation{};
     law::wetting::Pores pores{};          //!< of the cores
     law::vapour::AnySorption sorption{};  //!< of the cores
+    law::layer::AnyAbrasion abrasion{};   //!< of layers, see sim/collisions.cpp
     double sorption_time = 300;           //!< s in which the absorbed water comes to 1/e of its way to equilibrium
     double equilibrium_moisture = 0;      //!< kg/kg that stays in the layer
     double end_moisture = 0.01;           //!< of the feed's moisture, above that of equilibrium

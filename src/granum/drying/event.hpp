@@ -25,6 +25,7 @@ struct Event
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
     double footprint, granule_diameter, per_granule;
     double supersaturation, crystals, crystal_size, imbibed;
+    double wet_contacts, wet_impulse;
 };
 
 inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_columns{{
@@ -77,5 +78,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"crystals", "1", "in one real deposit; 0 without drying.crystallisation"},
     {"crystal_size", "m", "of crystals of equal size that hold all solids; 0 without drying.crystallisation"},
     {"imbibed", "1", "share of the solids that went into pores of the core; 0 without granules.pores"},
+    {"wet_contacts", "1", "collisions of a real granule with others and walls over the drying time"},
+    {"wet_impulse", "N s", "sum of the impulses of these collisions"},
 }};
 }

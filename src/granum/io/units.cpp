@@ -45,6 +45,7 @@ constexpr std::array rows{
     Row{Dimension::stiffness, "a stiffness", "N/m", "1000 N/m", "N/m"},
     Row{Dimension::heat_capacity, "a heat capacity", "J/kg/K", "1400 J/kg/K", "J/kg/K"},
     Row{Dimension::specific_energy, "a heat per mass", "J/kg", "224 kJ/kg", "J/kg"},
+    Row{Dimension::mass_per_energy, "a mass per work", "kg/J", "1e-6 kg/J", "kg/J"},
     Row{Dimension::conductivity, "a thermal conductivity", "W/m/K", "0.026 W/m/K", "W/m/K"},
     Row{Dimension::molar_mass, "a molar mass", "kg/mol", "144.1 g/mol", "g/mol"},
     Row{Dimension::power, "a power", "W", "100 W", "W"},

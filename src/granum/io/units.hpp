@@ -31,6 +31,7 @@ enum class Dimension
     stiffness,
     heat_capacity,
     specific_energy,
+    mass_per_energy,
     conductivity,
     molar_mass,
     power,

@@ -64,16 +64,20 @@ RunDeposits read_deposits(std::string const& folder, double interval)
     };
     auto const &solids = column("solids"), &ended = column("t_dry_end"), &initial = column("initial"),
                &drying = column("drying_time"), &granule = column("granule");
+    double const settled = io::number_at(summary, "start.settled_s").value_or(0);
     std::vector<double> times, masses, dryings;
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         double const mass = solids[row] * (1 - initial[row]);
-        if (mass <= 0) continue;
+        if (mass <= 0 || ended[row] < settled) continue;
         rows.push_back(row);
         times.push_back(ended[row]), masses.push_back(mass), dryings.push_back(drying[row]);
     }
-    base::require(!rows.empty(), "{}: no deposit of the spray has dried", folder);
+    base::require(!rows.empty(), "{}: no deposit of the spray has dried{}", folder,
+                  settled > 0 ? fmt::format(" after the {:.3g} s in which the bed settled", settled) : "");
     out.window = window_of(times, masses, dryings, interval);
+    auto const& start = io::at(summary, "start");
+    if (start.contains("settled_s") && start["settled_s"].is_null()) out.window.settled = false;
 
     auto& deposits = out.deposits;
     deposits.names = event_variables();

@@ -29,8 +29,8 @@ struct RunDeposits
 //! Columns of the events that a map may use.
 std::vector<std::string> const& event_variables();
 
-//! Reads events.h5 and summary.json. Deposits that the start had placed count with what was sprayed of them; the steady
-//! part is found from the means of the drying time over `interval` s. Throws base::IoError where a file is missing or
-//! broken, base::NumericsError where no deposit of the spray has dried.
+//! Reads events.h5 and summary.json. Deposits that the start had placed count with what was sprayed of them, none that
+//! dried while the bed settled; the steady part is found from the means of the drying time over `interval` s. Throws
+//! base::IoError where a file is missing or broken, base::NumericsError where no deposit of the spray has dried.
 RunDeposits read_deposits(std::string const& folder, double interval = 0.05);
 }

@@ -113,6 +113,7 @@ dem::Settings granule_settings(Case const& data)
                     contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
         },
         laws.normal);
+    settings.wear_threshold = data.drying.collision_energy.threshold;
     laws.lever = contact.lever_radius ? dem::Lever::radius : dem::Lever::contact_point;
     auto const grains = granule_kinds(data);
     for (std::uint32_t number = 0; number < contact.materials.size(); ++number) {
@@ -176,7 +177,8 @@ particle::Groups column_groups(Case const& data)
             .process = gas,
             .added_mass = gas && (forces.virtual_mass != "none" || forces.history > 0),
             .turning = gas && forces.torque != "none",
-            .eddies = gas && data.gas.dispersion != "none"};
+            .eddies = gas && data.gas.dispersion != "none",
+            .collisions = gas && data.spray.present && !data.contact.hard()};
 }
 
 double smoothing(Case const& data)
@@ -349,6 +351,8 @@ drying::Settings drying_settings(Case const& data)
     settings.sorption = named<law::vapour::Sorption>(data.drying.sorption);
     if (auto* law = std::get_if<law::vapour::Gab>(&settings.sorption)) *law = data.drying.gab;
     settings.sorption_time = data.drying.sorption_time;
+    settings.abrasion = named<law::layer::Abrasion>(data.drying.abrasion);
+    if (auto* law = std::get_if<law::layer::CollisionEnergy>(&settings.abrasion)) *law = data.drying.collision_energy;
     settings.pores = {.share = data.granules.pores,
                       .radius = data.granules.pore_radius,
                       .viscosity = s.viscosity,

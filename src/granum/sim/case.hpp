@@ -5,6 +5,7 @@
 #include "granum/geometry/chamber.hpp"
 #include "granum/law/deposit/crystallisation.hpp"
 #include "granum/law/impact/splash.hpp"
+#include "granum/law/layer/abrasion.hpp"
 #include "granum/law/vapour/sorption.hpp"
 #include "granum/math/constants.hpp"
 #include "granum/particle/sizes.hpp"
@@ -326,6 +327,8 @@ struct DryingCase
     law::vapour::Gab gab;
     double sorption_time = 300;      //!< s
     std::optional<double> absorbed;  //!< kg/kg core at the start; otherwise in equilibrium
+    std::string abrasion = "none";   //!< of layers
+    law::layer::CollisionEnergy collision_energy;
     std::string crystallisation = "at-saturation";
     law::deposit::NucleationGrowth crystals;
     double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none
@@ -353,6 +356,8 @@ struct StartCase
     bool quasi_steady = true;                                //!< bed, gas and surface moisture from the balance
     double temperature_offset = 0;                           //!< K added to the bed temperature of the balance
     std::optional<double> bed_temperature, gas_temperature;  //!< K, where not from the balance
+    //! s at most, in which the mean temperature of the bed follows the gas as if the bed had next to no heat capacity.
+    double settling = 0;
 };
 
 //! [time] and [output]

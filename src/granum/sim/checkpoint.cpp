@@ -82,6 +82,7 @@ void Simulation::each_common_number(Visit&& visit)
     visit(traffic_.fed), visit(traffic_.left), visit(traffic_.fed_mass), visit(traffic_.left_mass);
     visit(traffic_.fed_energy), visit(traffic_.left_energy);
     visit(next_feed_), visit(feed_rounds_);
+    visit(settling_.end), visit(settling_.since), visit(settling_.sprayed), visit(settling_.evaporated);
     for (auto& feed : feeds_) visit(feed.placed), visit(feed.mass);
     if (hard_) visit(granule_dt_);
     auto& watch = mover_->watch();
@@ -95,9 +96,9 @@ void Simulation::each_share(Visit&& visit)
         for (double& sum : *sums) visit(sum);
     visit(mine_.solids), visit(mine_.water), visit(mine_.deposited), visit(mine_.walls), visit(mine_.overspray);
     visit(mine_.in_flight), visit(mine_.evaporated), visit(mine_.deposited_water), visit(mine_.hits);
-    visit(mine_.splashed), visit(mine_.rebounds);
+    visit(mine_.splashed), visit(mine_.abraded), visit(mine_.rebounds);
     visit(heat_.contacts), visit(heat_.film), visit(heat_.wall_contacts), visit(heat_.wall_film);
-    visit(heat_.wall_gas), visit(heat_.radiation);
+    visit(heat_.wall_gas), visit(heat_.radiation), visit(heat_.settling);
     visit(last_.mass_in), visit(last_.mass_out), visit(last_.vapour_in), visit(last_.vapour_out);
     visit(last_.tracer_in), visit(last_.tracer_out);
     visit(last_.enthalpy_in), visit(last_.enthalpy_out), visit(last_.wall_heat), visit(last_.pressure_work);

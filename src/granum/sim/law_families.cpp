@@ -14,6 +14,7 @@
 #include "granum/law/force/all.hpp"
 #include "granum/law/force/basset.hpp"
 #include "granum/law/heat/all.hpp"
+#include "granum/law/layer/abrasion.hpp"
 #include "granum/law/turbulence/all.hpp"
 #include "granum/law/vapour/sorption.hpp"
 #include "granum/law/viscosity/all.hpp"
@@ -68,6 +69,7 @@ std::vector<LawFamily> const& law_families()
         family<law::deposit::Crystallisation>("crystallisation", "drying.crystallisation",
                                               "crystals in the deposit of a solution"),
         family<law::vapour::Sorption>("sorption", "drying.sorption", "water that cores absorb from the air"),
+        family<law::layer::Abrasion>("abrasion", "drying.abrasion", "what collisions rub off layers"),
         family<product::All>("porosity", "product.porosity_model",
                              "porosity of the layer from the history of its deposits"),
     };

@@ -15,8 +15,8 @@ SprayTotals Simulation::totals() const
 {
     SprayTotals all = mine_;
     for (auto const& droplet : droplets_) all.in_flight += droplet.solids();
-    std::array<double, 9> sums{all.solids,    all.water,      all.deposited,       all.walls,   all.overspray,
-                               all.in_flight, all.evaporated, all.deposited_water, all.splashed};
+    std::array<double, 10> sums{all.solids,    all.water,      all.deposited,       all.walls,    all.overspray,
+                                all.in_flight, all.evaporated, all.deposited_water, all.splashed, all.abraded};
     comm_.sum(sums);
     return {.solids = sums[0],
             .water = sums[1],
@@ -27,16 +27,17 @@ SprayTotals Simulation::totals() const
             .evaporated = sums[6],
             .deposited_water = sums[7],
             .splashed = sums[8],
+            .abraded = sums[9],
             .hits = comm_.sum(all.hits),
             .rebounds = comm_.sum(all.rebounds)};
 }
 
 HeatTotals Simulation::heat() const
 {
-    std::array<double, 6> sums{heat_.contacts,  heat_.film,     heat_.wall_contacts,
-                               heat_.wall_film, heat_.wall_gas, heat_.radiation};
+    std::array<double, 7> sums{heat_.contacts, heat_.film,      heat_.wall_contacts, heat_.wall_film,
+                               heat_.wall_gas, heat_.radiation, heat_.settling};
     comm_.sum(sums);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
 }
 
 Readings Simulation::readings() const

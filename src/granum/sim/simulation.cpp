@@ -151,6 +151,8 @@ void Simulation::follow_programme(double time)
 void Simulation::gas_step(double dt)
 {
     if (!case_.phases.empty()) follow_programme(time_ + 0.5 * dt);
+    bool const settling = settling_.end < 0;
+    double const bed = settling ? bed_temperature()[1] : 0;
     sources_.clear(grid_);
     grid::Field voidage;
     {
@@ -164,6 +166,7 @@ void Simulation::gas_step(double dt)
         potential_.resize(granules_.owned);
         for (std::size_t row = 0; row < granules_.owned; ++row)
             potential_[row] = local_drying_potential(seen_.temperature[row], seen_.vapour_fraction[row]);
+        take_collisions();
         nozzle_air(dt);
         fly_droplets(dt);
         std::size_t const before = events_.size();
@@ -222,6 +225,7 @@ void Simulation::gas_step(double dt)
         }
         for (double const gained : seen_.radiation) heat_.radiation -= dt * gained;
     }
+    if (settling) settle_bed(bed);
     if (case_.spray.present) engine_->changed(granules_);
 }
 

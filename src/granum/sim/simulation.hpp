@@ -37,6 +37,7 @@ struct SprayTotals
     double evaporated = 0;                           //!< water, from droplets and deposits
     double deposited_water = 0;
     double splashed = 0;  //!< solids that flew on from a granule
+    double abraded = 0;   //!< solids that collisions rubbed off layers, gone as dust
     long hits = 0;        //!< parcels that left a deposit
     long rebounds = 0;    //!< parcels, too dry to stick
 };
@@ -48,6 +49,7 @@ struct HeatTotals
     double wall_contacts = 0, wall_film = 0;  //!< from granules to walls, net
     double wall_gas = 0;                      //!< from the gas to walls, net
     double radiation = 0;                     //!< from granules to what is around them, which the gas bears, net
+    double settling = 0;                      //!< to the bed from nowhere, while it settled, net
 };
 
 //! The outside of the process as it is now, over all ranks.
@@ -74,6 +76,13 @@ struct GasWork
     double bytes = 0;       //!< that they asked of memory, see gas/traffic.hpp
     double iterations = 0;  //!< of the pressure, times cells
     double sweeps = 0;      //!< times cells
+};
+
+//! The time in which the mean temperature of the bed goes to where the process holds it, see start.cpp.
+struct Settling
+{
+    double end = 0;                                 //!< s, when it ended; negative: it goes on
+    double since = 0, sprayed = 0, evaporated = 0;  //!< s, and kg of water by then: the last look
 };
 
 struct WorkPoints;  // balance_work.cpp
@@ -106,6 +115,7 @@ class Simulation
     std::vector<spray::Droplet> const& droplets() const { return droplets_; }
     drying::Deposits const& deposits() const { return *deposits_; }
     Balance const& steady() const { return balance_; }
+    Settling const& settling() const { return settling_; }
     Ledgers const& ledgers() const { return ledgers_; }
     SprayTotals totals() const;  //!< Collective.
     HeatTotals heat() const;     //!< Collective.
@@ -156,12 +166,17 @@ class Simulation
     bool feed(Feed& feed, double now);
     void feed_all(double now);  //!< Collective.
     void let_out();             //!< takes out, or refuses, what has left the domain. Collective.
+    void take_collisions();
     void fly_droplets(double dt);
     //! Gives what does not stay on the granule; `stream` numbers the draws.
     std::optional<spray::Droplet> receive(spray::Hit const& hit, std::uint32_t stream);
     void exchange_droplets(std::vector<spray::Droplet> leaving);
     void nozzle_air(double dt);
     void gas_step(double dt);
+    //! Heat capacity of the granules, J/K, and their mean temperature by it, K. Collective.
+    std::array<double, 2> bed_temperature() const;
+    void settle_bed(double before);  //!< `before`: mean temperature of the bed before the gas step. Collective.
+    bool settled();                  //!< looks whether it is so. Collective.
     void audit();
     std::array<double, 3> stocks() const;  //!< solids, water, energy of this rank
 
@@ -199,6 +214,7 @@ class Simulation
     std::array<double, 3> in_{}, out_{};
     SprayTotals mine_;
     HeatTotals heat_;
+    Settling settling_;
     gas::Balance last_;  //!< boundary flows of the last gas step
     GasWork gas_work_;
     std::vector<Feed> feeds_;

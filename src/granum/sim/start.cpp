@@ -84,6 +84,7 @@ void Simulation::start_gas()
         all[0].add(capacity), all[1].add(capacity * (own - temperature));
     }
     comm_.sum(all);
+    settling_.end = flows && case_.start.settling > 0 ? -1 : 0;
     Vec3 velocity = gas.initial_velocity;
     if (flows && velocity == Vec3{}) {
         double const density = gas.density ? *gas.density : air::density(gas.pressure, temperature, vapour);

@@ -117,6 +117,10 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                        {"represented", represented},
                        {"mass_kg", data.granules.mass},
                        {"parcel_ratio", data.granules.parcel_ratio}};
+    if (data.start.settling > 0) {
+        auto const& settling = simulation.settling();
+        out["start"]["settled_s"] = settling.end < 0 ? json() : json(settling.end);
+    }
     out["packing"] = packing_part(last.bed, data, output.boxes());
     if (auto const* hard = simulation.mover().hard_watch())
         out["collisions"] = {{"pairs", hard->collisions},
@@ -171,7 +175,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
         auto const& t = last.totals;
         out["spray"] = {{"sprayed_kg", t.solids},    {"deposited_kg", t.deposited}, {"overspray_kg", t.overspray},
                         {"on_walls_kg", t.walls},    {"in_flight_kg", t.in_flight}, {"hits", t.hits},
-                        {"splashed_kg", t.splashed}, {"rebounds", t.rebounds}};
+                        {"splashed_kg", t.splashed}, {"abraded_kg", t.abraded},     {"rebounds", t.rebounds}};
         out["water"] = {{"sprayed_kg", t.water},
                         {"evaporated_kg", t.evaporated},
                         {"on_granules_kg", last.readings.water_on_granules}};
@@ -189,7 +193,8 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                        {"granules_to_walls_by_contact_J", heat.wall_contacts},
                        {"granules_to_walls_by_gas_J", heat.wall_film},
                        {"gas_to_walls_J", heat.wall_gas},
-                       {"radiated_by_granules_J", heat.radiation}};
+                       {"radiated_by_granules_J", heat.radiation},
+                       {"to_settle_the_bed_J", heat.settling}};
     }
     auto const& ledgers = simulation.ledgers();
     out["ledger"] = {{"solids", ledger(ledgers.solids)},

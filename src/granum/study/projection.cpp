@@ -70,8 +70,9 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
     out.porosity_high = std::min(limit, needed(summary, folder, "product.porosity.interval_high"));
     out.moisture = needed(summary, folder, "product.residual_moisture");
     double const sprayed = needed(summary, folder, "spray.sprayed_kg");
-    out.overspray =
-        (needed(summary, folder, "spray.overspray_kg") + needed(summary, folder, "spray.on_walls_kg")) / sprayed;
+    out.overspray = (needed(summary, folder, "spray.overspray_kg") + needed(summary, folder, "spray.on_walls_kg") +
+                     io::number_at(summary, "spray.abraded_kg").value_or(0)) /
+                    sprayed;
     out.solids_rate = data.spray.rate * data.spray.solids_fraction;
     double const kept = out.solids_rate * (1 - out.overspray), end = 3600 * hours;
     double const simulated = needed(summary, folder, "run.simulated_s");

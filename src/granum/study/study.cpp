@@ -20,7 +20,7 @@ namespace
 namespace fs = std::filesystem;
 using io::Dimension;
 
-constexpr double first_look = 1;  // s beyond the window, for the start to die away
+constexpr double first_look = 1.5;  // s beyond the window, for the start to die away
 
 Outcome outcome_of(Point const& point, std::string const& folder)
 {

@@ -161,6 +161,51 @@ duration = "1 s"
     EXPECT_EQ(cold->gas().temperature[grid.at(1, 1, 1)], 293.15);
 }
 
+TEST(HotBed, settles_to_the_temperature_at_which_the_gas_holds_it)
+{
+    std::string const text = R"(
+[apparatus]
+shape = "box"
+size = ["8 mm", "8 mm", "24 mm"]
+[gas]
+cells = [4, 4, 12]
+velocity = "0.2 m/s"
+temperature = "20 degC"
+humidity = 0
+[granules]
+diameter = "1 mm"
+density = "2500 kg/m3"
+heat_capacity = "840 J/kg/K"
+number = 500
+[contact]
+youngs_modulus = "1 MPa"
+[start]
+quasi_steady = false
+bed_temperature = "90 degC"
+settling = "0.5 s"
+[time]
+duration = "1 s"
+)";
+    // 0.55 J/K in a gas of 0.0155 W/K: by itself this bed would take 35 s.
+    double const capacity = 500 * 2500 * math::pi / 6 * 1e-9 * 840;
+    auto const simulation = scene::simulation_of(text);
+    auto const run_to = [&](double goal) {
+        while (simulation->time() < goal * (1 - 1e-12)) simulation->step(goal - simulation->time());
+    };
+    run_to(0.02);
+    EXPECT_LT(simulation->settling().end, 0);
+    EXPECT_GT(simulation->readings().bed_temperature, 293.15 + 20);
+    run_to(0.52);
+    EXPECT_NEAR(simulation->settling().end, 0.5, 1e-3);
+    double const bed = simulation->readings().bed_temperature;
+    EXPECT_NEAR(bed, 293.15, 0.5);
+    EXPECT_NEAR(simulation->heat().settling / capacity, -70, 1);
+    EXPECT_LT(simulation->ledgers().energy.relative_error(), 1e-12);
+    // From there on all of its heat capacity counts.
+    run_to(0.6);
+    EXPECT_NEAR(simulation->readings().bed_temperature, bed, 0.1 / 35);
+}
+
 TEST(SprayedBed, starts_as_wet_as_the_spray_keeps_it)
 {
     // Before the first droplets arrive, the deposits of the start must evaporate what the spray will bring.
@@ -174,6 +219,40 @@ TEST(SprayedBed, starts_as_wet_as_the_spray_keeps_it)
         EXPECT_NEAR(totals.water, sprayed, 0.02 * sprayed);
         EXPECT_NEAR(totals.evaporated, sprayed, 0.15 * sprayed) << law;
     }
+}
+
+TEST(SprayedBed, loses_layers_to_collisions_and_accounts_for_the_dust)
+{
+    auto const run = [](std::string const& abrasion) {
+        auto simulation = scene::simulation_of(spray_bed + "[drying]\n" + abrasion);
+        while (simulation->time() < 0.04 * (1 - 1e-12)) simulation->step(0.04 - simulation->time());
+        return simulation;
+    };
+    auto const none = run("");
+    auto const worn = run("abrasion = \"collision-energy\"\nabrasion_coefficient = \"1e-7 kg/J\"\n");
+    auto const gone = run("abrasion = \"collision-energy\"\nabrasion_coefficient = \"1 kg/J\"\n");
+    auto const tough =
+        run("abrasion = \"collision-energy\"\nabrasion_coefficient = \"1 kg/J\"\nabrasion_threshold = \"1 kJ/kg\"\n");
+    auto const layers = [](sim::Simulation& of) {
+        double sum = 0;
+        for (std::size_t row = 0; row < of.granules().owned; ++row) sum += of.granules().layer_mass[row];
+        return sum;
+    };
+    EXPECT_EQ(none->totals().abraded, 0);
+    EXPECT_EQ(tough->totals().abraded, 0);
+    EXPECT_GT(worn->totals().abraded, 0);
+    EXPECT_LT(layers(*worn), layers(*none));
+    EXPECT_LT(layers(*gone), 0.8 * layers(*none));
+    for (auto const* one : {&none, &worn, &gone}) {
+        EXPECT_LT((*one)->ledgers().solids.relative_error(), 1e-12);
+        EXPECT_LT((*one)->ledgers().energy.relative_error(), 1e-12);
+    }
+    // Deposits are told what their granules met; a bed of 0.6 mm granules collides some hundred times a second.
+    double met = 0, time = 0;
+    for (auto const& event : none->take_events())
+        met += event.weight * event.wet_contacts, time += event.weight * event.drying_time;
+    EXPECT_GT(met / time, 10);
+    EXPECT_LT(met / time, 1e5);
 }
 
 TEST(SprayedBed, accounts_for_all_that_was_sprayed)
