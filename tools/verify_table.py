@@ -10,7 +10,7 @@ Written by `./dev test verify`; do not edit. Each row holds a number of this pro
 come from it: a closed form, an independent small program, a table of somebody else. Rows that name a motion or a flow
 go through the step that `granum run` takes, from a case as a user would write it, unless they need a state that no case
 can tell. P: the project's test matrix; E: closed forms of heat and mass in gas and bed; CFD, D, G, H, X: reference cases cfd-NN, dem-NN, g-NN,
-h-NN, x-NN of `test/reference/`; N: what closed forms say of the numerics; S: an apparatus of solids.
+h-NN, x-NN of `test/reference/`; N: what closed forms say of the numerics; S: an apparatus of solids; L: the ledgers of the examples.
 Published: how far other codes are from the same number, as far as that is known.
 
 | id | quantity | reference | ours | difference | tolerance | published | verdict |

@@ -219,7 +219,12 @@ double Additive::value(Point const& at) const
 
 Estimate Additive::predict(Point const& at) const
 {
-    return {value(at), at.histogram.dot(nodes.covariance * at.histogram)};
+    return {value(at), covariance_of(at, at)};
+}
+
+double Additive::covariance_of(Point const& one, Point const& other) const
+{
+    return one.histogram.dot(nodes.covariance * other.histogram);
 }
 
 Estimate Additive::element(std::span<double const> values) const

@@ -68,6 +68,15 @@ struct Prediction
 Prediction predict(Map const& map, std::vector<std::pair<Features, double>> const& runs_and_potentials,
                    std::uint32_t seed = 1);
 
+//! How far the property moves from one operating point to another: what the map knows badly at both alike does not
+//! count twice.
+struct Shift
+{
+    double mean = 0, deviation = 0;  //!< of the regression and of both runs' lengths
+};
+Shift shift(Map const& map, std::pair<Features, double> const& from, std::pair<Features, double> const& to,
+            std::uint32_t seed = 1);
+
 //! The property over the granules of a run, each the mean over its own layer, weighted with its solids: only of a map
 //! that predicts with the additive model, which alone knows single deposits. Throws base::NumericsError where no
 //! granule has a layer.

@@ -32,7 +32,11 @@ void LinearPotential::fit(std::span<Observed const> observed, Known const&)
 
 Estimate LinearPotential::predict(Point const& at) const
 {
-    Eigen::Vector2d const row{1, at.potential};
-    return {value(at), row.dot(covariance * row)};
+    return {value(at), covariance_of(at, at)};
+}
+
+double LinearPotential::covariance_of(Point const& one, Point const& other) const
+{
+    return Eigen::Vector2d{1, one.potential}.dot(covariance * Eigen::Vector2d{1, other.potential});
 }
 }

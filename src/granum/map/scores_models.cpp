@@ -94,8 +94,12 @@ void LinearScores::fit(std::span<Observed const> observed, Known const&)
 
 Estimate LinearScores::predict(Point const& at) const
 {
-    Eigen::VectorXd const here = row(at);
-    return {mean + here.dot(slopes.mean), here.dot(slopes.covariance * here)};
+    return {value(at), covariance_of(at, at)};
+}
+
+double LinearScores::covariance_of(Point const& one, Point const& other) const
+{
+    return row(one).dot(slopes.covariance * row(other));
 }
 
 void GaussianProcess::fit(std::span<Observed const> observed, Known const&)
@@ -144,15 +148,31 @@ Estimate GaussianProcess::predict(Point const& at) const
     Estimate out{mean, 0};
     double square = 0;
     for (auto const& one : choices) {
-        Eigen::VectorXd with(places.cols());
-        for (Eigen::Index k = 0; k < with.size(); ++k)
-            with[k] = constant + one.amplitude * matern((places.col(k) - here).cwiseQuotient(one.lengths).norm());
-        double const value = with.dot(one.solved);
+        double const value = with_measured(one, here).dot(one.solved);
         out.mean += one.share * value;
         square += one.share * value * value;
-        out.variance += one.share * (constant + one.amplitude - with.dot(one.inverse * with));
     }
-    out.variance = std::max(0.0, out.variance + square - std::pow(out.mean - mean, 2));
+    // Choices that differ in what they say add to it.
+    out.variance = std::max(0.0, covariance_of(at, at) + square - std::pow(out.mean - mean, 2));
+    return out;
+}
+
+Eigen::VectorXd GaussianProcess::with_measured(Choice const& choice, Eigen::VectorXd const& here) const
+{
+    Eigen::VectorXd out(places.cols());
+    for (Eigen::Index k = 0; k < out.size(); ++k)
+        out[k] = constant + choice.amplitude * matern((places.col(k) - here).cwiseQuotient(choice.lengths).norm());
+    return out;
+}
+
+double GaussianProcess::covariance_of(Point const& one, Point const& other) const
+{
+    Eigen::VectorXd const a = standard.of(one), b = standard.of(other);
+    double out = 0;
+    for (auto const& choice : choices) {
+        double const prior = constant + choice.amplitude * matern((a - b).cwiseQuotient(choice.lengths).norm());
+        out += choice.share * (prior - with_measured(choice, a).dot(choice.inverse * with_measured(choice, b)));
+    }
     return out;
 }
 }

@@ -33,6 +33,7 @@ struct LinearScores
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const { return mean + row(at).dot(slopes.mean); }
     Estimate predict(Point const& at) const;
+    double covariance_of(Point const& one, Point const& other) const;
 
   private:
     Eigen::VectorXd row(Point const& at) const;
@@ -64,5 +65,10 @@ struct GaussianProcess
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const { return predict(at).mean; }
     Estimate predict(Point const& at) const;
+    double covariance_of(Point const& one, Point const& other) const;
+
+  private:
+    //! Covariances with the observed points.
+    Eigen::VectorXd with_measured(Choice const& choice, Eigen::VectorXd const& here) const;
 };
 }

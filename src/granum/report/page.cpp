@@ -48,6 +48,8 @@ th { text-align: left; color: #4a545e; font-weight: 600; border-bottom: 1px soli
 td { border-bottom: 1px solid #e3e7ea; padding: 5px 14px 5px 0; vertical-align: top; }
 .num { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 tr.sum td { font-weight: 600; border-top: 1px solid #9aa5ad; }
+th.num { white-space: normal; vertical-align: bottom; }
+.name { white-space: nowrap; }
 .light { white-space: nowrap; font-weight: 600; }
 .light::before { content: ""; display: inline-block; width: 12px; height: 12px; border-radius: 50%; margin-right: 7px; vertical-align: -1px; border: 1px solid #333; }
 .good::before { background: #3a9a4a; }

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace granum::study
@@ -59,17 +60,20 @@ constexpr std::array columns{
     Column{"coverage", "1", "coverage at impact",
            [](Outcome const& o) { return mean_of(o.deposits.deposits, "coverage"); }},
     Column{"eta", "1", "eta of the outlet", member<&Outcome::eta>},
-    Column{"balance_eta", "1", "eta of the balance", member<&Outcome::balance_eta>},
+    Column{"balance_eta", "1", "of the balance", member<&Outcome::balance_eta>},
     Column{"outlet_temperature", "K", "outlet temperature", member<&Outcome::outlet_temperature>},
-    Column{"balance_temperature", "K", "outlet temperature of the balance", member<&Outcome::balance_temperature>},
+    Column{"balance_temperature", "K", "of the balance", member<&Outcome::balance_temperature>},
     Column{"outlet_humidity", "kg/kg", "outlet humidity", member<&Outcome::outlet_humidity>},
-    Column{"balance_humidity", "kg/kg", "outlet humidity of the balance", member<&Outcome::balance_humidity>},
+    Column{"balance_humidity", "kg/kg", "of the balance", member<&Outcome::balance_humidity>},
     Column{"solids_error", "1", "solids ledger", member<&Outcome::solids_error>},
     Column{"water_error", "1", "water ledger", member<&Outcome::water_error>},
     Column{"wall_time", "s", "wall time", member<&Outcome::wall>},
 };
 
-std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Prediction> const& predictions)
+constexpr std::size_t first_condition = 2, conditions_count = 4, of_apparatus = 6;  // among them
+
+std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Prediction> const& predictions,
+                std::vector<map::Shift> const& shifts)
 {
     std::string names = "point", units = "1", body;
     for (auto const& column : columns) {
@@ -77,6 +81,7 @@ std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Predictio
         units += fmt::format(",{0},{0}", column.unit);
     }
     if (!predictions.empty()) names += ",predicted,predicted_low,predicted_high,extrapolation", units += ",1,1,1,1";
+    if (!shifts.empty()) names += ",shift,shift_error", units += ",1,1";
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
         body += outcomes[k].point.name;
         for (auto const& column : columns) {
@@ -87,24 +92,59 @@ std::string csv(std::vector<Outcome> const& outcomes, std::vector<map::Predictio
             auto const& p = predictions[k];
             body += fmt::format(",{:.8g},{:.8g},{:.8g},{:.4g}", p.mean, p.low, p.high, p.extrapolation);
         }
+        if (!shifts.empty()) body += fmt::format(",{:.8g},{:.3g}", shifts[k].mean, shifts[k].deviation);
         body += "\n";
     }
     return names + "\n" + units + "\n" + body;
 }
 
-std::string table(std::vector<Outcome> const& outcomes)
+//! A line for each point, a column for each of `some`.
+std::string table(std::vector<Outcome> const& outcomes, std::span<Column const> some)
 {
     std::string out = "<table><tr><th></th>";
-    for (auto const& one : outcomes)
-        out += fmt::format("<th class=\"num\">{}{}</th>", escape(one.point.name), one.enough ? "" : " (short)");
-    out += "</tr>\n";
-    for (auto const& column : columns) {
-        out += fmt::format("<tr><td>{}{}</td>", escape(column.title),
+    for (auto const& column : some)
+        out += fmt::format("<th class=\"num\">{}{}</th>", escape(column.title),
                            std::string_view(column.unit) == "1" ? "" : fmt::format(" ({})", column.unit));
-        for (auto const& one : outcomes) {
+    out += "</tr>\n";
+    for (auto const& one : outcomes) {
+        out += fmt::format("<tr><td class=\"name\">{}{}</td>", escape(one.point.name), one.enough ? "" : " (short)");
+        for (auto const& column : some) {
             auto const mean = column.of(one);
             out += "<td class=\"num\">" + number(mean.value) + (mean.error > 0 ? " ± " + number(mean.error, 1) : "") +
                    "</td>";
+        }
+        out += "</tr>\n";
+    }
+    return out + "</table>\n";
+}
+
+//! How far each point is from the reference, the nearest first: the property where there is a map, else the drying
+//! time; and the conditions of the deposits, in errors of the difference.
+std::string ranked(std::vector<Outcome> const& outcomes, std::size_t reference, std::vector<map::Shift> const& shifts,
+                   std::string const& property)
+{
+    auto const& to = outcomes[reference];
+    auto const distance = [&](std::size_t k) {
+        return std::abs(shifts.empty() ? outcomes[k].deposits.window.mean - to.deposits.window.mean : shifts[k].mean);
+    };
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+        if (k != reference) order.push_back(k);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+    auto const conditions = std::span(columns).subspan(first_condition, conditions_count);
+    std::string out = "<table><tr><th></th>";
+    if (!shifts.empty()) out += fmt::format("<th class=\"num\">{}</th>", escape(property));
+    for (auto const& column : conditions) out += fmt::format("<th class=\"num\">{}</th>", escape(column.title));
+    out += "</tr>\n";
+    for (std::size_t const k : order) {
+        out += "<tr><td class=\"name\">" + escape(outcomes[k].point.name) + "</td>";
+        if (!shifts.empty())
+            out += fmt::format("<td class=\"num\">{} ± {}</td>", number(shifts[k].mean, 2),
+                               number(shifts[k].deviation, 1));
+        for (auto const& column : conditions) {
+            auto const here = column.of(outcomes[k]), there = column.of(to);
+            double const error = std::hypot(here.error, there.error);
+            out += fmt::format("<td class=\"num\">{} ± {}</td>", number(here.value - there.value, 2), number(error, 1));
         }
         out += "</tr>\n";
     }
@@ -170,14 +210,28 @@ void write(Study const& study, std::vector<Outcome> const& outcomes, std::string
 {
     namespace fs = std::filesystem;
     std::vector<map::Prediction> predictions;
-    std::string more;
+    std::vector<map::Shift> shifts;
+    std::string more, property;
+    auto const found = std::find_if(outcomes.begin(), outcomes.end(),
+                                    [&](auto const& one) { return one.point.name == study.reference; });
+    auto const reference = static_cast<std::size_t>(found - outcomes.begin());
     if (!study.map.empty()) {
         auto const map = map::read_map(study.map);
+        property = map.property;
+        std::vector<std::pair<map::Features, double>> all;
         for (auto const& one : outcomes)
-            predictions.push_back(
-                map::predict(map, {{map::features(map.known.axes, one.deposits.deposits), one.deposits.potential}}));
+            all.emplace_back(map::features(map.known.axes, one.deposits.deposits), one.deposits.potential);
+        for (auto const& one : all) {
+            predictions.push_back(map::predict(map, {one}));
+            if (found != outcomes.end()) shifts.push_back(map::shift(map, all[reference], one));
+        }
         more = report::section("predicted", "Predicted " + map.property, predicted(map, outcomes, predictions));
     }
+    if (found != outcomes.end() && outcomes.size() > 1)
+        more += report::section(
+            "ranked", "Away from " + study.reference,
+            "<p class=\"how\">The nearest first. What the map knows badly of both alike does not count.</p>\n" +
+                ranked(outcomes, reference, shifts, property));
     std::string const charts =
         report::figure(distributions(outcomes, "drying_time", true, "drying time (s)"),
                        "How long deposits took to dry.") +
@@ -191,9 +245,11 @@ void write(Study const& study, std::vector<Outcome> const& outcomes, std::string
         fmt::format("<p class=\"brand\">GRANUM</p>\n<h1>{}</h1>\n<p class=\"how\">{} operating points.</p>\n",
                     escape(study.title), outcomes.size()) +
         more +
-        report::section("points", "Operating points", "<div style=\"overflow-x:auto\">" + table(outcomes) + "</div>") +
+        report::section("points", "Operating points",
+                        table(outcomes, std::span(columns).first(of_apparatus)) +
+                            table(outcomes, std::span(columns).subspan(of_apparatus))) +
         report::section("distributions", "Conditions of the deposits", "<div class=\"charts\">" + charts + "</div>");
-    io::replace_text((fs::path(folder) / "study.csv").string(), csv(outcomes, predictions));
+    io::replace_text((fs::path(folder) / "study.csv").string(), csv(outcomes, predictions, shifts));
     io::replace_text((fs::path(folder) / "study.html").string(),
                      report::whole_page(study.title + " – Granum study", body));
 }

@@ -80,6 +80,9 @@ Study read_study(std::string const& path)
         if (!names.insert(point.name).second) file.mistake(key + "name", "is there already");
         study.points.push_back(std::move(point));
     }
+    study.reference = file.words("reference", "", "point that the others are compared with");
+    if (!study.reference.empty() && !names.contains(study.reference))
+        file.mistake("reference", "is none of the points");
     if (count == 0)
         file.mistake("point", "is missing: a study has points", {"add [[point]] tables with a name and what they set"});
     file.finish();

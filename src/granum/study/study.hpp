@@ -29,6 +29,7 @@ struct Study
     double least = 5, most = 30;  //!< s of the window: at least so long, then no longer than this
     double error = 0.01;          //!< standard error of the mean of log10 of the drying time to be reached
     std::string map;              //!< path of a map to predict with; empty: none
+    std::string reference;        //!< name of the point that the others are compared with; empty: none
 };
 
 //! Throws base::CaseError with every mistake of the file. The cases of its points are checked too.

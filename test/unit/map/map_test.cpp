@@ -260,6 +260,28 @@ TEST(Map, tells_how_granules_differ_by_what_their_own_deposits_went_through)
     EXPECT_FALSE(over_granules(map, given));
 }
 
+TEST(Map, knows_a_shift_better_than_the_values_it_is_between)
+{
+    auto const truth = [](double t) { return 0.5 + 0.2 * std::log10(t); };
+    auto map = fit("p", "1", {.axes = time_alone()}, runs_at({0.2, 0.5, 1, 2, 4}, truth, 0.02));
+    auto const low = runs_at({0.8}, truth, 0).front(), high = runs_at({1.2}, truth, 0).front();
+    std::pair const from{low.features, low.potential}, to{high.features, high.potential};
+    for (map.chosen = 0; map.chosen < map.models.size(); ++map.chosen) {
+        auto const& name = map.comparisons[map.chosen].model;
+        auto const a = predict(map, {from}), b = predict(map, {to});
+        auto const moved = shift(map, from, to), still = shift(map, from, from);
+        EXPECT_NEAR(moved.mean, b.mean - a.mean, 1e-12) << name;
+        EXPECT_EQ(still.mean, 0) << name;
+        EXPECT_LT(moved.deviation, std::hypot(a.deviation(), b.deviation())) << name;
+        EXPECT_LT(still.deviation, 1.5 * a.sampling + 1e-7) << name << ": what is left is that runs are short";
+    }
+    // Of a line, the error of the shift is that of the slope times the way.
+    map.chosen = 1;
+    auto const& line = std::get<LinearPotential>(map.models[1]);
+    EXPECT_NEAR(shift(map, from, to).deviation,
+                std::sqrt(line.covariance(1, 1)) * std::abs(high.potential - low.potential), 1e-9);
+}
+
 TEST(Map, adds_up_what_makes_it_uncertain)
 {
     auto const truth = [](double t) { return 0.5 + 0.2 * std::log10(t); };

@@ -97,6 +97,8 @@ TEST(Study, says_what_is_wrong_with_its_file)
     EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A\"\n[[point]]\nname = \"A\"\n"), "there already");
     EXPECT_PRED2(has, folder.mistakes(head + "[window]\nleast = \"9 s\"\nmost = \"5 s\"\n[[point]]\nname = \"A\"\n"),
                  "below window.least");
+    EXPECT_PRED2(has, folder.mistakes("reference = \"B\"\n" + head + "[[point]]\nname = \"A\"\n"),
+                 "none of the points");
     EXPECT_PRED2(has, folder.mistakes(head + "[windows]\n[[point]]\nname = \"A\"\n"), "window");
     // A wrong value of a point is found before anything runs.
     auto const study = read_study(folder.write(head + "[[point]]\nname = \"A\"\nset.gas.temperature = \"60 bar\"\n"));
