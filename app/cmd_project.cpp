@@ -15,7 +15,7 @@ void add_project(CLI::App& program, Action& action)
 {
     struct Wish
     {
-        std::string folder, feed, discharge, nuclei;
+        std::string folder, feed, discharge, nuclei, agglomeration;
         double hours = 1, sharpness = 20, kept = 1;
     };
     auto* verb = program.add_subcommand("project", "size and layer after hours, from the rates of a run");
@@ -32,6 +32,8 @@ void add_project(CLI::App& program, Action& action)
     verb->add_option("--kept", wish->kept, "share of the dust that stays (1); with --nuclei")
         ->check(CLI::Range(0.0, 1.0))
         ->needs(nuclei);
+    verb->add_option("--agglomeration", wish->agglomeration,
+                     "share of the granules that join others at the beginning, e.g. \"2 %/h\"; any pair alike");
     verb->callback([wish, &action] {
         action = [wish] {
             if (!std::filesystem::is_directory(wish->folder))
@@ -48,10 +50,13 @@ void add_project(CLI::App& program, Action& action)
                                                option_quantity("--discharge", wish->discharge, io::Dimension::length),
                                                wish->sharpness};
             }
-            study::Nuclei born;
+            study::Besides besides;
             if (!wish->nuclei.empty())
-                born = {wish->kept, option_quantity("--nuclei", wish->nuclei, io::Dimension::length)};
-            auto const result = study::project(wish->folder, wish->hours, continuous, born);
+                besides.nuclei = {wish->kept, option_quantity("--nuclei", wish->nuclei, io::Dimension::length)};
+            if (!wish->agglomeration.empty())
+                besides.agglomeration =
+                    option_quantity("--agglomeration", wish->agglomeration, io::Dimension::count_rate);
+            auto const result = study::project(wish->folder, wish->hours, continuous, besides);
             study::write(result, wish->folder);
             auto const& end = result.rows.back();
             fmt::print(

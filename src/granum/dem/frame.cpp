@@ -105,9 +105,12 @@ void Frame::give(particle::Store& granules)
     if (collisions.empty()) return;
     for (std::size_t row = 0; row < owned; ++row) {
         auto const seen = std::exchange(collisions[row], {});
-        granules.collisions[row] += seen.count;
-        granules.collision_speed[row] += seen.speed;
-        granules.collision_wear[row] += seen.wear;
+        granules.collisions[row] += seen.granules.count;
+        granules.collision_speed[row] += seen.granules.speed;
+        granules.collision_wear[row] += seen.granules.wear;
+        granules.wall_collisions[row] += seen.walls.count;
+        granules.wall_collision_speed[row] += seen.walls.speed;
+        granules.wall_collision_wear[row] += seen.walls.wear;
     }
 }
 

@@ -119,7 +119,7 @@ Drying::Change Drying::solidify(Deposit const& deposit, double sherwood, double 
         .lasts = leaving > 0 ? std::clamp(deposit.heat / leaving, 1e-9, 1.0) : 1, .heat = deposit.heat, .ends = true};
 }
 
-Event Drying::finish(Deposit const& deposit, double count, double diameter, double layer) const
+Event Drying::finish(Deposit const& deposit, double count, double diameter, double mass, double layer) const
 {
     Event event = deposit.record;
     double const time = event.drying_time = deposit.time;
@@ -135,6 +135,17 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter, doub
     event.mean_slip = deposit.slip / time;
     event.wet_contacts = deposit.contacts;
     event.wet_impulse = deposit.impulse;
+    double const landed = (deposit.water_at_impact + deposit.solute) / deposit.weight / settings_.liquid.density;
+    if (deposit.contacts > 0) {
+        // Of equal granules: J = (1 + e) m / 2 times the speed of approach.
+        double const speed = deposit.impulse / deposit.contacts / ((1 + settings_.restitution) * mass);
+        double const density = mass / (math::pi / 6 * diameter * diameter * diameter);
+        event.viscous_stokes = law::wetting::viscous_stokes(density, 0.5 * diameter, speed, settings_.viscosity);
+    }
+    event.critical_stokes = law::wetting::critical_stokes(
+        settings_.restitution,
+        law::wetting::cap_height(deposit.base_radius, law::wetting::pinned_angle(landed, deposit.base_radius)),
+        settings_.roughness);
     // Without the trace, which leaves at once at the end.
     double const foot = math::pi * deposit.base_radius * deposit.base_radius;
     event.mean_flux =
@@ -150,7 +161,6 @@ Event Drying::finish(Deposit const& deposit, double count, double diameter, doub
     if (settings_.pores.share > 0) {
         auto const& liquid = settings_.liquid;
         double const one = deposit.solute / deposit.weight / (liquid.solids_density * (1 - event.porosity));
-        double const landed = (deposit.water_at_impact + deposit.solute) / deposit.weight / liquid.density;
         double const penetration = law::wetting::penetration_time(landed, settings_.pores);
         event.imbibed = law::wetting::bare(layer, one / foot) * law::wetting::entered(time, penetration);
     }
@@ -225,7 +235,7 @@ void Drying::advance(particle::Store& granules, Deposits& deposits, Surroundings
                 ++kept;
                 continue;
             }
-            Event event = finish(deposit, count, diameter, layer);
+            Event event = finish(deposit, count, diameter, granules.mass[row] / count, layer);
             event.granule = static_cast<double>(granules.id[row]);
             event.t_dry_end = now - dt + h;
             dried_solids += deposit.solute;

@@ -16,6 +16,7 @@
 #include "granum/law/deposit/stages.hpp"
 #include "granum/law/layer/abrasion.hpp"
 #include "granum/law/vapour/sorption.hpp"
+#include "granum/law/wetting/coalescence.hpp"
 #include "granum/law/wetting/imbibition.hpp"
 #include "granum/particle/store.hpp"
 
@@ -47,6 +48,9 @@ struct Settings
     law::deposit::AnyCrystallisation crystallisation{};
     law::wetting::Pores pores{};          //!< of the cores
     law::vapour::AnySorption sorption{};  //!< of the cores
+    double viscosity = 1e-3;              //!< of the feed, Pa s
+    double restitution = 0.8;             //!< of two dry granules
+    double roughness = 1e-6;              //!< m, height of their asperities
     law::layer::AnyAbrasion abrasion{};   //!< of layers, see sim/collisions.cpp
     double sorption_time = 300;           //!< s in which the absorbed water comes to 1/e of its way to equilibrium
     double equilibrium_moisture = 0;      //!< kg/kg that stays in the layer
@@ -117,8 +121,9 @@ class Drying
     Change evaporate(Deposit const& deposit, double rate, double dt) const;
     Change solidify(Deposit const& deposit, double sherwood, double diameter, double gas, double granule,
                     double dt) const;
-    //! @param layer mean thickness of what lies on its granule, m
-    Event finish(Deposit const& deposit, double count, double diameter, double layer) const;
+    //! @param mass of one real granule, kg
+    //! @param layer mean thickness of what lies on it, m
+    Event finish(Deposit const& deposit, double count, double diameter, double mass, double layer) const;
 
     Settings settings_;
 };

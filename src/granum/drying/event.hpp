@@ -25,7 +25,7 @@ struct Event
     double mean_slip, mean_flux, max_flux, constant_rate_time, initial, porosity;
     double footprint, granule_diameter, per_granule;
     double supersaturation, crystals, crystal_size, imbibed;
-    double wet_contacts, wet_impulse;
+    double wet_contacts, wet_impulse, viscous_stokes, critical_stokes;
 };
 
 inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_columns{{
@@ -80,5 +80,7 @@ inline constexpr std::array<EventColumn, sizeof(Event) / sizeof(double)> event_c
     {"imbibed", "1", "share of the solids that went into pores of the core; 0 without granules.pores"},
     {"wet_contacts", "1", "collisions of a real granule with others and walls over the drying time"},
     {"wet_impulse", "N s", "sum of the impulses of these collisions"},
+    {"viscous_stokes", "1", "of these collisions with the liquid as it was sprayed; 0 where there were none"},
+    {"critical_stokes", "1", "below which they stick where they meet the deposit as it landed"},
 }};
 }

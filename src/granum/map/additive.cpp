@@ -219,12 +219,13 @@ double Additive::value(Point const& at) const
 
 Estimate Additive::predict(Point const& at) const
 {
-    return {value(at), covariance_of(at, at)};
+    return {value(at), at.histogram.dot(nodes.covariance * at.histogram)};
 }
 
-double Additive::covariance_of(Point const& one, Point const& other) const
+double Additive::shift_variance(Point const& from, Point const& to) const
 {
-    return one.histogram.dot(nodes.covariance * other.histogram);
+    VectorXd const way = to.histogram - from.histogram;
+    return way.dot(nodes.covariance * way);
 }
 
 Estimate Additive::element(std::span<double const> values) const

@@ -28,8 +28,8 @@ struct Additive
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const;  //!< the mean alone, here and in every model
     Estimate predict(Point const& at) const;
-    //! Of the errors of two answers, here and in every model.
-    double covariance_of(Point const& one, Point const& other) const;
+    //! Of the difference of two answers, here and in every model: what is known badly of both alike does not count.
+    double shift_variance(Point const& from, Point const& to) const;
 
     //! Of one layer element with these values of the axes' variables.
     Estimate element(std::span<double const> values) const;

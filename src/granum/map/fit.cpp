@@ -151,12 +151,7 @@ Shift shift(Map const& map, std::pair<Features, double> const& from, std::pair<F
 {
     auto const& model = map.models[map.chosen];
     auto const a = point(from.first.total(), from.second), b = point(to.first.total(), to.second);
-    double variance = 0;
-    std::visit(
-        [&](auto const& one) {
-            variance = one.covariance_of(a, a) + one.covariance_of(b, b) - 2 * one.covariance_of(a, b);
-        },
-        model);
+    double variance = std::visit([&](auto const& one) { return one.shift_variance(a, b); }, model);
     variance = std::max(0.0, variance) + sampling_variance(model, from.first, from.second, seed, 1000) +
                sampling_variance(model, to.first, to.second, seed, 1001);
     return {value(model, b) - value(model, a), std::sqrt(variance)};

@@ -32,11 +32,12 @@ void LinearPotential::fit(std::span<Observed const> observed, Known const&)
 
 Estimate LinearPotential::predict(Point const& at) const
 {
-    return {value(at), covariance_of(at, at)};
+    Eigen::Vector2d const row{1, at.potential};
+    return {value(at), row.dot(covariance * row)};
 }
 
-double LinearPotential::covariance_of(Point const& one, Point const& other) const
+double LinearPotential::shift_variance(Point const& from, Point const& to) const
 {
-    return Eigen::Vector2d{1, one.potential}.dot(covariance * Eigen::Vector2d{1, other.potential});
+    return covariance(1, 1) * (to.potential - from.potential) * (to.potential - from.potential);
 }
 }

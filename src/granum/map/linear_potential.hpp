@@ -20,6 +20,6 @@ struct LinearPotential
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const { return zero + slope * at.potential; }
     Estimate predict(Point const& at) const;
-    double covariance_of(Point const& one, Point const& other) const;
+    double shift_variance(Point const& from, Point const& to) const;
 };
 }

@@ -94,12 +94,14 @@ void LinearScores::fit(std::span<Observed const> observed, Known const&)
 
 Estimate LinearScores::predict(Point const& at) const
 {
-    return {value(at), covariance_of(at, at)};
+    Eigen::VectorXd const here = row(at);
+    return {mean + here.dot(slopes.mean), here.dot(slopes.covariance * here)};
 }
 
-double LinearScores::covariance_of(Point const& one, Point const& other) const
+double LinearScores::shift_variance(Point const& from, Point const& to) const
 {
-    return row(one).dot(slopes.covariance * row(other));
+    Eigen::VectorXd const way = row(to) - row(from);
+    return way.dot(slopes.covariance * way);
 }
 
 void GaussianProcess::fit(std::span<Observed const> observed, Known const&)
@@ -148,12 +150,13 @@ Estimate GaussianProcess::predict(Point const& at) const
     Estimate out{mean, 0};
     double square = 0;
     for (auto const& one : choices) {
-        double const value = with_measured(one, here).dot(one.solved);
+        auto const with = with_measured(one, here);
+        double const value = with.dot(one.solved);
         out.mean += one.share * value;
         square += one.share * value * value;
+        out.variance += one.share * (constant + one.amplitude - with.dot(one.inverse * with));
     }
-    // Choices that differ in what they say add to it.
-    out.variance = std::max(0.0, covariance_of(at, at) + square - std::pow(out.mean - mean, 2));
+    out.variance = std::max(0.0, out.variance + square - std::pow(out.mean - mean, 2));
     return out;
 }
 
@@ -165,14 +168,18 @@ Eigen::VectorXd GaussianProcess::with_measured(Choice const& choice, Eigen::Vect
     return out;
 }
 
-double GaussianProcess::covariance_of(Point const& one, Point const& other) const
+double GaussianProcess::shift_variance(Point const& from, Point const& to) const
 {
-    Eigen::VectorXd const a = standard.of(one), b = standard.of(other);
-    double out = 0;
-    for (auto const& choice : choices) {
-        double const prior = constant + choice.amplitude * matern((a - b).cwiseQuotient(choice.lengths).norm());
-        out += choice.share * (prior - with_measured(choice, a).dot(choice.inverse * with_measured(choice, b)));
+    Eigen::VectorXd const a = standard.of(from), b = standard.of(to);
+    double sum = 0, square = 0, out = 0;
+    for (auto const& one : choices) {
+        Eigen::VectorXd const way = with_measured(one, b) - with_measured(one, a);
+        double const value = way.dot(one.solved);
+        sum += one.share * value;
+        square += one.share * value * value;
+        out += one.share * (2 * one.amplitude * (1 - matern((a - b).cwiseQuotient(one.lengths).norm())) -
+                            way.dot(one.inverse * way));
     }
-    return out;
+    return std::max(0.0, out + square - sum * sum);
 }
 }

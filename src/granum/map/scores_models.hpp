@@ -33,7 +33,7 @@ struct LinearScores
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const { return mean + row(at).dot(slopes.mean); }
     Estimate predict(Point const& at) const;
-    double covariance_of(Point const& one, Point const& other) const;
+    double shift_variance(Point const& from, Point const& to) const;
 
   private:
     Eigen::VectorXd row(Point const& at) const;
@@ -65,7 +65,7 @@ struct GaussianProcess
     void fit(std::span<Observed const> observed, Known const& known);
     double value(Point const& at) const { return predict(at).mean; }
     Estimate predict(Point const& at) const;
-    double covariance_of(Point const& one, Point const& other) const;
+    double shift_variance(Point const& from, Point const& to) const;
 
   private:
     //! Covariances with the observed points.

@@ -145,12 +145,14 @@ struct Store
     Column<double> enthalpy{{"enthalpy", "J", false, false, Group::process}};       //!< stored; zero at 0 degC, liquid
     Column<double> temperature{{"temperature", "K", false, true, Group::process}};  //!< follows from the enthalpy
 
-    // Collisions, which whoever reads them sets back to zero.
-    Column<double> collisions{{"collisions", "1", false, false, Group::collisions}};  //!< that began
-    Column<double> collision_speed{
-        {"collision_speed", "m/s", false, false, Group::collisions}};  //!< changes of velocity
-    Column<double> collision_wear{
-        {"collision_wear", "J/kg", false, false, Group::collisions}};  //!< dissipated, see dem
+    // Collisions that began, with granules and with walls, which whoever reads them sets back to zero: their number,
+    // the changes of velocity, what they dissipated (see dem).
+    Column<double> collisions{{"collisions", "1", false, false, Group::collisions}};
+    Column<double> collision_speed{{"collision_speed", "m/s", false, false, Group::collisions}};
+    Column<double> collision_wear{{"collision_wear", "J/kg", false, false, Group::collisions}};
+    Column<double> wall_collisions{{"wall_collisions", "1", false, false, Group::collisions}};
+    Column<double> wall_collision_speed{{"wall_collision_speed", "m/s", false, false, Group::collisions}};
+    Column<double> wall_collision_wear{{"wall_collision_wear", "J/kg", false, false, Group::collisions}};
 
     Groups groups{};  //!< changed by `keep` only
     std::size_t owned = 0;
@@ -181,6 +183,7 @@ void for_every_column(StoreType& store, Visitor&& visit)
         visit(store.layer_mass);
     visit(store.layer_volume), visit(store.water), visit(store.absorbed), visit(store.solute), visit(store.enthalpy);
     visit(store.temperature), visit(store.collisions), visit(store.collision_speed), visit(store.collision_wear);
+    visit(store.wall_collisions), visit(store.wall_collision_speed), visit(store.wall_collision_wear);
 }
 
 //! Calls visit(column) for every column that the store has, in a fixed order.

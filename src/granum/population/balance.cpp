@@ -10,6 +10,7 @@ namespace granum::population
 namespace
 {
 constexpr double courant = 0.4;
+constexpr double joined = 0.05;  // of the granules of a class, in a step
 
 //! Koren's limiter of the ratio of successive slopes.
 double koren(double r)
@@ -38,12 +39,47 @@ std::vector<double> fluxes(Classes const& classes, std::function<double(double)>
     return out;
 }
 
+//! Where the unions of the granules of two classes go: to class `to` by `share`, else to the next.
+struct Unions
+{
+    struct Pair
+    {
+        double rate, share;
+        std::size_t to;
+    };
+    std::vector<Pair> pairs;  //!< i <= j, row by row
+
+    Unions(Classes const& classes, Rates const& rates)
+    {
+        if (!rates.agglomeration) return;
+        std::vector<double> pivots;
+        for (std::size_t k = 0; k < classes.size(); ++k) pivots.push_back(classes.volume(k));
+        pairs.reserve(pivots.size() * (pivots.size() + 1) / 2);
+        for (std::size_t i = 0; i < pivots.size(); ++i)
+            for (std::size_t j = i; j < pivots.size(); ++j) {
+                double const volume = pivots[i] + pivots[j];
+                auto const above = std::upper_bound(pivots.begin(), pivots.end(), volume);
+                Pair one{.rate = rates.agglomeration(classes.centre(i), classes.centre(j)),
+                         .share = 1,
+                         .to = static_cast<std::size_t>(above - pivots.begin()) - 1};
+                base::require(one.rate >= 0 && std::isfinite(one.rate), "a rate of agglomeration is {}", one.rate);
+                // Beyond the last class number gives way to volume; no run gets there, see require_room.
+                if (above == pivots.end())
+                    one.share = volume / pivots.back();
+                else
+                    one.share = (*above - volume) / (*above - pivots[one.to]);
+                pairs.push_back(one);
+            }
+    }
+};
+
 struct Change
 {
     std::vector<double> number;  //!< 1/s
     Passed rates;                //!< m3/s
     double speed = 0;            //!< m/s, where the growth of size is 1
     double leaving = 0;          //!< 1/s, of the class that leaves fastest
+    double joining = 0;          //!< 1/s, of the class that joins others fastest
 };
 
 //! Speed for which the fluxes raise the sum of `measure` over granules by `wanted` per second.
@@ -55,7 +91,34 @@ double speed_for(std::vector<double> const& flux, Classes const& classes, double
     return gain > 0 ? wanted / gain : 0;
 }
 
-Change change_of(Classes const& classes, Rates const& rates)
+//! Deaths and births of granules that join; answers unions per second.
+double join(Classes const& classes, Unions const& unions, std::vector<double>& change, double& fastest)
+{
+    double sum = 0;
+    std::vector<double> deaths(classes.size());
+    auto pair = unions.pairs.begin();
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        if (classes.number[i] == 0) {
+            pair += static_cast<std::ptrdiff_t>(classes.size() - i);
+            continue;
+        }
+        for (std::size_t j = i; j < classes.size(); ++j, ++pair) {
+            double const rate = (i == j ? 0.5 : 1.0) * pair->rate * classes.number[i] * classes.number[j];
+            if (rate == 0) continue;
+            sum += rate;
+            deaths[i] += rate, deaths[j] += rate;
+            change[pair->to] += rate * pair->share;
+            if (pair->to + 1 < classes.size()) change[pair->to + 1] += rate * (1 - pair->share);
+        }
+    }
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+        change[k] -= deaths[k];
+        if (classes.number[k] > 0) fastest = std::max(fastest, deaths[k] / classes.number[k]);
+    }
+    return sum;
+}
+
+Change change_of(Classes const& classes, Rates const& rates, Unions const& unions)
 {
     Change out;
     out.number.assign(classes.size(), 0.0);
@@ -89,6 +152,7 @@ Change change_of(Classes const& classes, Rates const& rates)
         if (classes.number[k] > 0) out.leaving = std::max(out.leaving, scale * leaves[k] / classes.number[k]);
     }
     out.rates.discharged = scale * leaving;
+    if (!unions.pairs.empty()) out.rates.unions = join(classes, unions, out.number, out.joining);
     return out;
 }
 
@@ -125,22 +189,25 @@ Passed advance(Classes& classes, Rates const& rates, double dt)
 {
     Passed out;
     double const factor = fastest(classes, rates);
+    Unions const unions(classes, rates);
     for (double left = dt; left > 0;) {
-        auto const first = change_of(classes, rates);
+        auto const first = change_of(classes, rates, unions);
         double width = classes.width(0);
         for (std::size_t k = 1; k < classes.size(); ++k) width = std::min(width, classes.width(k));
         double h = left;
         if (first.speed > 0) h = std::min(h, courant * width / (first.speed * factor));
         if (first.leaving > 0) h = std::min(h, courant / first.leaving);
+        if (first.joining > 0) h = std::min(h, joined / first.joining);
         // Weights of the stages in the sum that the three of them make.
         constexpr double share[] = {1.0 / 6, 1.0 / 6, 2.0 / 3};
         std::size_t stage = 0;
         step(classes.number, h, [&] {
-            auto const change = change_of(classes, rates);
+            auto const change = change_of(classes, rates, unions);
             double const weight = h * share[stage++];
             out.grown += weight * change.rates.grown, out.born += weight * change.rates.born;
             out.fed += weight * change.rates.fed, out.discharged += weight * change.rates.discharged;
             out.number_discharged += weight * change.rates.number_discharged;
+            out.unions += weight * change.rates.unions;
             return change.number;
         });
         left = h >= 0.999999 * left ? 0 : left - h;

@@ -42,10 +42,14 @@ std::string spray_section(RunFolder const& run)
                              mass ? quantity(1000 * *mass, "g", 3) : not_available,
                              mass ? percent(*mass, sprayed) : not_available);
     }
+    auto const abraded = run.value("spray.abraded_kg").value_or(0);
     table += fmt::format(
         "<tr class=\"sum\"><td>sprayed</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr></tbody></table>",
         run.value("spray.sprayed_kg") ? quantity(1000 * sprayed, "g", 4) : not_available,
         sprayed > 0 ? "100\u00a0%" : "");
+    if (abraded > 0)
+        table += fmt::format("<p>Of layers {} were rubbed off again by collisions ({} of what was sprayed).</p>",
+                             quantity(1000 * abraded, "g", 3), percent(abraded, sprayed));
     return section(
         "spray", "Where the solids of the spray went",
         figure(split_bar(shares), "Solids of the sprayed liquid: only the deposited part becomes product.") + table);

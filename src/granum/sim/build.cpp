@@ -113,7 +113,7 @@ dem::Settings granule_settings(Case const& data)
                     contact.keep_attraction ? law::contact::Attraction::keep : law::contact::Attraction::cut;
         },
         laws.normal);
-    settings.wear_threshold = data.drying.collision_energy.threshold;
+    settings.wear_threshold = data.drying.abrasion_threshold;
     laws.lever = contact.lever_radius ? dem::Lever::radius : dem::Lever::contact_point;
     auto const grains = granule_kinds(data);
     for (std::uint32_t number = 0; number < contact.materials.size(); ++number) {
@@ -351,6 +351,9 @@ drying::Settings drying_settings(Case const& data)
     settings.sorption = named<law::vapour::Sorption>(data.drying.sorption);
     if (auto* law = std::get_if<law::vapour::Gab>(&settings.sorption)) *law = data.drying.gab;
     settings.sorption_time = data.drying.sorption_time;
+    settings.viscosity = s.viscosity;
+    settings.restitution = data.contact.pairs[0][0].restitution;
+    settings.roughness = data.drying.roughness;
     settings.abrasion = named<law::layer::Abrasion>(data.drying.abrasion);
     if (auto* law = std::get_if<law::layer::CollisionEnergy>(&settings.abrasion)) *law = data.drying.collision_energy;
     settings.pores = {.share = data.granules.pores,

@@ -327,8 +327,10 @@ struct DryingCase
     law::vapour::Gab gab;
     double sorption_time = 300;      //!< s
     std::optional<double> absorbed;  //!< kg/kg core at the start; otherwise in equilibrium
+    double roughness = 1e-6;         //!< m, of granules
     std::string abrasion = "none";   //!< of layers
     law::layer::CollisionEnergy collision_energy;
+    double abrasion_threshold = 0;  //!< J per kg of granule and collision
     std::string crystallisation = "at-saturation";
     law::deposit::NucleationGrowth crystals;
     double critical_moisture = 0;  //!< X_cr, kg/kg solids: falling rate below; 0: none

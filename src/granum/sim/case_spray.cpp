@@ -269,17 +269,17 @@ void read_abrasion(io::CaseFile& file, Case& data)
     drying.abrasion =
         file.name("drying.abrasion", drying.abrasion, "law", laws_for("drying.abrasion"), "a law of abrasion");
     bool const none = drying.abrasion == law::layer::NoAbrasion::card.name;
-    auto& law = drying.collision_energy;
-    law.threshold =
-        file.quantity("drying.abrasion_threshold", Dimension::specific_energy, law.threshold,
+    drying.abrasion_threshold =
+        file.quantity("drying.abrasion_threshold", Dimension::specific_energy, drying.abrasion_threshold,
                       "per kg of granule and collision, below which nothing is rubbed off", io::not_negative);
     if (none) {
         for (auto const* key : {"drying.abrasion_coefficient", "drying.abrasion_threshold"})
             if (file.has(key)) file.mistake(key, "belongs to drying.abrasion = \"collision-energy\"");
         return;
     }
-    law.coefficient = file.quantity("drying.abrasion_coefficient", Dimension::mass_per_energy, std::nullopt,
-                                    "kg of layer per J that collisions dissipate", io::positive);
+    drying.collision_energy.coefficient =
+        file.quantity("drying.abrasion_coefficient", Dimension::mass_per_energy, std::nullopt,
+                      "kg of layer per J that collisions dissipate", io::positive);
     if (!data.spray.present) file.mistake("drying.abrasion", "goes with a [spray]");
     if (data.contact.hard()) file.mistake("drying.abrasion", "needs soft spheres");
 }
@@ -326,6 +326,9 @@ void read_process(io::CaseFile& file, Case& data)
             file.mistake(key, "has no meaning for a melt");
     read_crystallisation(file, data);
     read_sorption(file, data);
+    data.drying.roughness =
+        file.quantity("drying.roughness", Dimension::length, data.drying.roughness,
+                      "height of the asperities of granules, to which a film is squeezed", io::positive);
     read_abrasion(file, data);
     bool const rea = drying.stages == law::deposit::ReactionEngineering::card.name;
     drying.critical_moisture =
@@ -381,9 +384,10 @@ void read_process(io::CaseFile& file, Case& data)
     start.gas_temperature =
         file.optional_quantity("start.gas_temperature", Dimension::temperature,
                                "instead of the inlet's or the balance's, and of the granules' between them", warm);
-    bool const told = start.temperature_offset != 0 || start.bed_temperature || start.gas_temperature;
+    bool const told =
+        start.temperature_offset != 0 || start.bed_temperature || start.gas_temperature || file.count("phase") > 0;
     start.settling = file.quantity(
-        "start.settling", Dimension::time, start.quasi_steady && !told ? 10.0 : 0.0,
+        "start.settling", Dimension::time, start.quasi_steady && !told ? 15.0 : 0.0,
         "at most, in which the bed's mean temperature goes to where the process holds it, bypassing its heat capacity",
         {.low = 0, .high = 1e4});
 }

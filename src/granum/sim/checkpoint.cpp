@@ -82,7 +82,7 @@ void Simulation::each_common_number(Visit&& visit)
     visit(traffic_.fed), visit(traffic_.left), visit(traffic_.fed_mass), visit(traffic_.left_mass);
     visit(traffic_.fed_energy), visit(traffic_.left_energy);
     visit(next_feed_), visit(feed_rounds_);
-    visit(settling_.end), visit(settling_.since), visit(settling_.sprayed), visit(settling_.evaporated);
+    visit(settling_.end), visit(settling_.enough), visit(settling_.since), visit(settling_.water);
     for (auto& feed : feeds_) visit(feed.placed), visit(feed.mass);
     if (hard_) visit(granule_dt_);
     auto& watch = mover_->watch();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace granum::sim
 {
@@ -12,14 +13,17 @@ void Simulation::take_collisions()
 {
     auto const& abrasion = drying_->settings().abrasion;
     for (std::size_t const row : mapping_->order()) {
-        if (granules_.collisions[row] == 0) continue;
-        // Parcels of granules, l^3 in each, meet others l times more rarely than granules do.
+        if (granules_.collisions[row] == 0 && granules_.wall_collisions[row] == 0) continue;
+        // Parcels of granules, l^3 in each, meet others l times more rarely than granules do, and walls as often.
         double const count = granules_.count[row], ratio = std::cbrt(count);
-        double const met = ratio * granules_.collisions[row];
-        double const impulse = ratio * granules_.collision_speed[row] * granules_.mass[row] / count;
+        auto const all = [&](auto& pairs, auto& walls) {
+            return ratio * std::exchange(pairs[row], 0.0) + std::exchange(walls[row], 0.0);
+        };
+        double const met = all(granules_.collisions, granules_.wall_collisions);
+        double const impulse =
+            all(granules_.collision_speed, granules_.wall_collision_speed) * granules_.mass[row] / count;
+        double const dissipated = all(granules_.collision_wear, granules_.wall_collision_wear);
         for (auto& deposit : deposits_->on(granules_.id[row])) deposit.contacts += met, deposit.impulse += impulse;
-        double const dissipated = ratio * granules_.collision_wear[row];
-        granules_.collisions[row] = granules_.collision_speed[row] = granules_.collision_wear[row] = 0;
 
         double const lost =
             granules_.mass[row] * std::visit([&](auto const& law) { return law(dissipated); }, abrasion);

@@ -142,6 +142,11 @@ std::vector<std::string> run_warnings(Simulation& simulation, std::vector<std::s
             fmt::format("granules got so fast within a few steps that contacts may have been seen late, {} times: a "
                         "shorter time.granule_step helps",
                         late));
+    if (auto const& settling = simulation.settling(); settling.end > 0 && !settling.enough)
+        warnings.push_back(fmt::format(
+            "what is wet in the bed had not settled in the {:.3g} s of start.settling: the bed may be too warm or "
+            "too cold; a longer start.settling helps",
+            settling.end));
     if (simulation.unconverged_steps() > 0)
         warnings.push_back(
             fmt::format("the pressure missed its tolerance on {} of {} gas steps: the ledgers hold, but the gas "

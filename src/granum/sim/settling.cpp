@@ -15,7 +15,7 @@ namespace
 {
 constexpr double least = 1.2;    // s: the bed has expanded and the spray has come to it
 constexpr double longer = 1.5;   // ratio of the times of two looks
-constexpr double enough = 0.02;  // of the water sprayed since the last look that has not evaporated
+constexpr double enough = 0.02;  // of the water sprayed since the last look, by which what is wet has changed
 }
 
 std::array<double, 2> Simulation::bed_temperature() const
@@ -30,16 +30,22 @@ std::array<double, 2> Simulation::bed_temperature() const
     return {capacity, capacity > 0 ? sums[1].value() / capacity : 0};
 }
 
+double Simulation::liquid() const
+{
+    double sum = 0;
+    for (auto const& droplet : droplets_) sum += droplet.liquid_water();
+    for (std::size_t row = 0; row < granules_.owned; ++row)
+        for (auto const& deposit : deposits_->on(granules_.id[row])) sum += deposit.water;
+    return comm_.sum(sum);
+}
+
 bool Simulation::settled()
 {
-    if (time_ >= case_.start.settling) return true;
     if (time_ < 0.5 * least || time_ < longer * settling_.since) return false;
-    std::array<double, 2> water{mine_.water, mine_.evaporated};
-    comm_.sum(water);
-    double const sprayed = water[0] - settling_.sprayed, evaporated = water[1] - settling_.evaporated;
     bool const first = settling_.since == 0;
-    settling_.since = time_, settling_.sprayed = water[0], settling_.evaporated = water[1];
-    return !first && time_ >= least && std::abs(sprayed - evaporated) <= enough * sprayed;
+    double const before = settling_.water, sprayed = balance_.water_rate * (time_ - settling_.since);
+    settling_.since = time_, settling_.water = deposits_ ? liquid() : 0;
+    return !first && time_ >= least && std::abs(settling_.water - before) <= enough * sprayed;
 }
 
 void Simulation::settle_bed(double before)
@@ -48,9 +54,12 @@ void Simulation::settle_bed(double before)
     // response time of a third of the time since the start: a deviation falls with the third power of that time, and
     // what bubbles do to the mean is averaged over ever more of them. Granules keep what they differ by.
     auto const [capacity, mean] = bed_temperature();
-    double const flow = balance_.dry_mass_flow *
-                        (material::heat_capacity_air + balance_.outlet_humidity * material::heat_capacity_vapour);
-    double const response = std::max(time_, 0.1 * least) / 3;
+    double const moist = material::heat_capacity_air + balance_.outlet_humidity * material::heat_capacity_vapour;
+    double const flow = balance_.dry_mass_flow * moist;
+    // A response faster than gas takes through the bed, which holds three times the granules' volume, would overshoot.
+    double const solids = capacity / (case_.granules.density * case_.granules.heat_capacity);
+    double const through = flow > 0 ? 3 * solids * material::density(case_.gas.pressure, mean, 0) * moist / flow : 0;
+    double const response = std::max({time_ / 3, least / 30, through});
     double const times = flow > 0 ? std::max(0.0, capacity / flow / response - 1) : 0;
     double const shift = times * (mean - before);
     for (std::size_t const row : mapping_->order()) {
@@ -60,6 +69,7 @@ void Simulation::settle_bed(double before)
         in_[2] += heat;
         heat_.settling += heat;
     }
-    if (settled()) settling_.end = time_;
+    settling_.enough = settled();
+    if (settling_.enough || time_ >= case_.start.settling) settling_.end = time_;
 }
 }

@@ -67,6 +67,11 @@ Simulation::Simulation(Case data, par::Communicator const& comm, io::Checkpoint 
         auto& watch = mover_->watch();  // from here on it watches the run
         watch.largest_overlap = 0, watch.warned_overlaps = 0;
         watch.dissipated = watch.wall_work = {};
+        // What they met as they fell is not of this process.
+        for (auto* column :
+             {&granules_.collisions, &granules_.collision_speed, &granules_.collision_wear, &granules_.wall_collisions,
+              &granules_.wall_collision_speed, &granules_.wall_collision_wear})
+            std::fill(column->values.begin(), column->values.end(), 0.0);
     }
     follow(case_, nominal_, 0);
     if (case_.spray.present) drying_ = std::make_unique<drying::Drying>(drying_settings(case_));

@@ -78,11 +78,12 @@ struct GasWork
     double sweeps = 0;      //!< times cells
 };
 
-//! The time in which the mean temperature of the bed goes to where the process holds it, see start.cpp.
+//! The time in which the mean temperature of the bed goes to where the process holds it, see settling.cpp.
 struct Settling
 {
-    double end = 0;                                 //!< s, when it ended; negative: it goes on
-    double since = 0, sprayed = 0, evaporated = 0;  //!< s, and kg of water by then: the last look
+    double end = 0;               //!< s, when it ended; negative: it goes on
+    bool enough = false;          //!< it ended because the bed had settled
+    double since = 0, water = 0;  //!< s, and kg of water of the spray in flight and on granules then: the last look
 };
 
 struct WorkPoints;  // balance_work.cpp
@@ -177,6 +178,7 @@ class Simulation
     std::array<double, 2> bed_temperature() const;
     void settle_bed(double before);  //!< `before`: mean temperature of the bed before the gas step. Collective.
     bool settled();                  //!< looks whether it is so. Collective.
+    double liquid() const;           //!< kg of water in flight and in open deposits. Collective.
     void audit();
     std::array<double, 3> stocks() const;  //!< solids, water, energy of this rank
 

@@ -98,7 +98,9 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
     auto const& data = simulation.data();
     auto const& samples = output.samples();
     Sample const last = samples.empty() ? Sample{} : samples.back();
-    double const end = last.time, third = 2 * end / 3;
+    double const end = last.time, settled = simulation.settling().end;
+    // Not of the time in which the bed settled, unless there is none besides.
+    double const third = settled < end ? std::max(2 * end / 3, settled) : 2 * end / 3;
     auto const over_last_third = [&](auto pick) { return mean(samples, third, pick); };
     json out;
     out["schema"] = "granum-summary-1";
@@ -119,7 +121,7 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
                        {"parcel_ratio", data.granules.parcel_ratio}};
     if (data.start.settling > 0) {
         auto const& settling = simulation.settling();
-        out["start"]["settled_s"] = settling.end < 0 ? json() : json(settling.end);
+        out["start"] = {{"settled_s", settling.end < 0 ? json() : json(settling.end)}, {"settled", settling.enough}};
     }
     out["packing"] = packing_part(last.bed, data, output.boxes());
     if (auto const* hard = simulation.mover().hard_watch())

@@ -223,14 +223,16 @@ void write(Study const& study, std::vector<Outcome> const& outcomes, std::string
             all.emplace_back(map::features(map.known.axes, one.deposits.deposits), one.deposits.potential);
         for (auto const& one : all) {
             predictions.push_back(map::predict(map, {one}));
-            if (found != outcomes.end()) shifts.push_back(map::shift(map, all[reference], one));
+            if (found != outcomes.end())
+                shifts.push_back(&one == &all[reference] ? map::Shift{} : map::shift(map, all[reference], one));
         }
         more = report::section("predicted", "Predicted " + map.property, predicted(map, outcomes, predictions));
     }
     if (found != outcomes.end() && outcomes.size() > 1)
         more += report::section(
             "ranked", "Away from " + study.reference,
-            "<p class=\"how\">The nearest first. What the map knows badly of both alike does not count.</p>\n" +
+            fmt::format("<p class=\"how\">The nearest first.{}</p>\n",
+                        shifts.empty() ? "" : " What the map knows badly of both alike does not count.") +
                 ranked(outcomes, reference, shifts, property));
     std::string const charts =
         report::figure(distributions(outcomes, "drying_time", true, "drying time (s)"),

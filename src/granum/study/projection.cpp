@@ -40,16 +40,18 @@ double needed(nlohmann::json const& summary, std::string const& folder, char con
 
 //! The cores in classes of a few micrometres: up to what the layer of a batch makes of them, with room for a spread; of
 //! a bed that is fed and taken from, whose granules stay for very different times, up to ten times their size.
-population::Classes cores(sim::Case const& data, std::optional<double> layer_volume, double nuclei)
+//! Agglomerates of a batch find room up to four diameters more.
+population::Classes cores(sim::Case const& data, std::optional<double> layer_volume, double nuclei, bool join)
 {
     double smallest = 1e9, largest = 0, volume = 0;
     for (auto const& batch : data.granules.batches) {
         smallest = std::min(smallest, batch.sizes.smallest()), largest = std::max(largest, batch.sizes.largest());
         volume += batch.mass / batch.density;
     }
-    double const top = layer_volume ? 1.3 * largest * std::cbrt(1 + 3 * *layer_volume / volume) : 10 * largest;
+    double const top = (layer_volume ? 1.3 * largest * std::cbrt(1 + 3 * *layer_volume / volume) : 10 * largest) *
+                       (join && layer_volume ? 4 : 1);
     double const low = nuclei > 0 ? std::min(0.98 * smallest, 0.9 * nuclei) : 0.98 * smallest;
-    auto out = population::Classes::even(low, top, layer_volume ? 800 : 3000);
+    auto out = population::Classes::even(low, top, join ? 1200 : layer_volume ? 800 : 3000);
     constexpr int draws = 2000;
     for (auto const& batch : data.granules.batches) {
         double const count = batch.mass / (batch.density * math::pi / 6 * batch.sizes.mean_cube());
@@ -60,8 +62,9 @@ population::Classes cores(sim::Case const& data, std::optional<double> layer_vol
 }
 
 Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous,
-                   Nuclei const& nuclei, int rows)
+                   Besides const& besides, int rows)
 {
+    Nuclei const& nuclei = besides.nuclei;
     auto const data = sim::read_case(sim::case_file_of(folder)).data;
     auto const summary = io::read_summary(folder);
     Projection out;
@@ -70,12 +73,13 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
     out.porosity_high = std::min(limit, needed(summary, folder, "product.porosity.interval_high"));
     out.moisture = needed(summary, folder, "product.residual_moisture");
     double const sprayed = needed(summary, folder, "spray.sprayed_kg");
-    out.overspray = (needed(summary, folder, "spray.overspray_kg") + needed(summary, folder, "spray.on_walls_kg") +
-                     io::number_at(summary, "spray.abraded_kg").value_or(0)) /
-                    sprayed;
+    out.overspray =
+        (needed(summary, folder, "spray.overspray_kg") + needed(summary, folder, "spray.on_walls_kg")) / sprayed;
+    out.abraded = io::number_at(summary, "spray.abraded_kg").value_or(0) / sprayed;
     out.solids_rate = data.spray.rate * data.spray.solids_fraction;
-    double const kept = out.solids_rate * (1 - out.overspray), end = 3600 * hours;
+    double const kept = out.solids_rate * (1 - out.overspray - out.abraded), end = 3600 * hours;
     double const simulated = needed(summary, folder, "run.simulated_s");
+    out.agglomeration = besides.agglomeration;
     out.growth = size_growth(io::read_snapshot(folder + "/snapshots.h5").granules);
     double const variation = io::number_at(summary, "product.surface.variation_between").value_or(std::nan(""));
     double core_mass = 0;
@@ -105,8 +109,14 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
     std::vector<population::Rates> rates;
     for (double const porosity : porosities) {
         auto const layer = kept * end / (data.spray.solids_density * (1 - porosity));
-        states.push_back(cores(data, continuous ? std::nullopt : std::optional(layer), nuclei.diameter));
+        states.push_back(
+            cores(data, continuous ? std::nullopt : std::optional(layer), nuclei.diameter, besides.agglomeration > 0));
         rates.push_back(rates_for(porosity, states.back().total_volume()));
+        // Unions per second of N granules are half the rate of a pair times N squared.
+        if (besides.agglomeration > 0)
+            rates.back().agglomeration = [rate = 2 * besides.agglomeration / states.back().total()](double, double) {
+                return rate;
+            };
     }
     double const start = states[0].mean_diameter(), density = data.spray.solids_density * (1 - out.porosity);
     for (int row = 0; row < rows; ++row) {
@@ -123,7 +133,7 @@ Projection project(std::string const& folder, double hours, std::optional<Contin
         // A denser layer makes smaller granules.
         one.d50_low = states[1].percentile(0.5), one.d50_high = states[2].percentile(0.5);
         if (!continuous) {
-            one.layer = 0.5 * (own.mean_diameter() - start);
+            one.layer = besides.agglomeration > 0 ? std::nan("") : 0.5 * (own.mean_diameter() - start);
             one.mass = core_mass + (kept + nuclei.kept * out.overspray * out.solids_rate) * time;
             one.variation = time > simulated ? law::layer::later_variation(variation, simulated, time) : variation;
         } else {
@@ -183,16 +193,24 @@ void write(Projection const& p, std::string const& folder)
         "({} to {} um), d90 {} "
         "um; residual moisture {} kg/kg.</p>\n<p>The run's layer porosity of {:.3f} (95 % interval {:.3f} to {:.3f}), "
         "its overspray of {:.2f} % "
-        "and its air stay as they are. {}{} The spread of the layer's mass falls with the root of time, as in a "
+        "and its air stay as they are. {}{}{}{} The spread of the layer's mass falls with the root of time, as in a "
         "well-mixed "
         "bed.</p>\n",
         end.time / 3600, number(1e6 * end.d10), number(1e6 * end.d50), number(1e6 * end.d50_low),
         number(1e6 * end.d50_high), number(1e6 * end.d90), number(p.moisture, 2), p.porosity, p.porosity_low,
         p.porosity_high, 100 * p.overspray, growth_words(p.growth),
-        p.nuclei_rate > 0 ? fmt::format(" {} new granules per second come from dust.", number(p.nuclei_rate, 3)) : "");
+        p.nuclei_rate > 0 ? fmt::format(" {} new granules per second come from dust.", number(p.nuclei_rate, 3)) : "",
+        p.abraded > 0
+            ? fmt::format(" {:.2f} % is rubbed off again, as in the run; thicker layers lose more.", 100 * p.abraded)
+            : "",
+        p.agglomeration > 0
+            ? fmt::format(" Any pair of granules joins as often as any other, {} % of them in the first "
+                          "hour if all were as at the start.",
+                          number(3.6e5 * p.agglomeration, 3))
+            : "");
     std::string charts = report::figure(report::svg(sizes), "Size of the granules in the bed, by volume.");
     if (batch) {
-        charts += report::figure(report::svg(layers), "Mean thickness of the layer.");
+        if (p.agglomeration == 0) charts += report::figure(report::svg(layers), "Mean thickness of the layer.");
         charts += report::figure(report::svg(spreads),
                                  "How unlike the granules' layers are: the run's own value, then falling as t^-1/2.");
     }

@@ -25,25 +25,34 @@ struct Nuclei
     double diameter = 0;  //!< m
 };
 
+//! What is added to the layering that the run tells of.
+struct Besides
+{
+    Nuclei nuclei;
+    double agglomeration = 0;  //!< 1/s, share of the granules that join others at the beginning; any pair alike
+};
+
 struct Projected
 {
     double time = 0;                   //!< s
     double d10 = 0, d50 = 0, d90 = 0;  //!< m, by volume
     double d50_low = 0, d50_high = 0;  //!< with the ends of the porosity's 95 % interval
-    double layer = 0;                  //!< m, mean over granules of a batch: half of what diameters have grown
-    double mass = 0;                   //!< kg of dry granules in the bed
-    double discharged = 0;             //!< kg/s
-    double variation = 0;              //!< standard deviation of the layer's mass among granules over its mean; batch
+    double layer = 0;  //!< m, mean over granules of a batch: half of what diameters have grown; not of agglomerates
+    double mass = 0;   //!< kg of dry granules in the bed
+    double discharged = 0;  //!< kg/s
+    double variation = 0;   //!< standard deviation of the layer's mass among granules over its mean; batch
 };
 
 struct Projection
 {
     double porosity = 0, porosity_low = 0, porosity_high = 0;
-    double overspray = 0;    //!< share of the solids that leave or stay on walls
-    double nuclei_rate = 0;  //!< new granules per second
-    SizeGrowth growth;       //!< of large granules against small ones
-    double moisture = 0;     //!< kg/kg, residual
-    double solids_rate = 0;  //!< kg/s
+    double overspray = 0;      //!< share of the solids that leave or stay on walls
+    double nuclei_rate = 0;    //!< new granules per second
+    double abraded = 0;        //!< share of the solids that is rubbed off layers again
+    double agglomeration = 0;  //!< as given, 1/s
+    SizeGrowth growth;         //!< of large granules against small ones
+    double moisture = 0;       //!< kg/kg, residual
+    double solids_rate = 0;    //!< kg/s
     std::vector<Projected> rows;
 };
 
@@ -51,7 +60,7 @@ struct Projection
 //! as the run's granules of different sizes tell (by two standard errors at least); porosity, overspray and air stay
 //! those of the run. Throws base::IoError or base::CaseError where the run cannot tell what is needed.
 Projection project(std::string const& folder, double hours, std::optional<Continuous> const& continuous,
-                   Nuclei const& nuclei = {}, int rows = 121);
+                   Besides const& besides = {}, int rows = 121);
 
 //! project.csv and project.html in the run folder.
 void write(Projection const& projection, std::string const& folder);

@@ -19,7 +19,7 @@ struct State
 {
     particle::Id id;
     Vec3 position, velocity, spin;
-    double collisions, collision_speed, collision_wear;
+    double collisions, collision_speed, collision_wear, wall_collisions, wall_collision_speed, wall_collision_wear;
 };
 
 //! FNV-1a of the states of all granules in the order of their identities, on every rank.
@@ -33,7 +33,10 @@ std::uint64_t hash_of(scene::Scene const& scene)
                           scene.granules.spin[row],
                           scene.granules.collisions[row],
                           scene.granules.collision_speed[row],
-                          scene.granules.collision_wear[row]};
+                          scene.granules.collision_wear[row],
+                          scene.granules.wall_collisions[row],
+                          scene.granules.wall_collision_speed[row],
+                          scene.granules.wall_collision_wear[row]};
         auto const* bytes = reinterpret_cast<std::byte const*>(&state);
         mine.insert(mine.end(), bytes, bytes + sizeof(State));
     }

@@ -63,15 +63,15 @@ TEST(Collisions, with_a_wall_count_each_blow_and_only_what_is_above_the_threshol
         scene.run(200000, 1e-7);
         auto const& g = scene.granules;
         double speed = 1, changes = 0, wear = 0;
-        for (int blow = 0; blow < static_cast<int>(g.collisions[0]); ++blow) {
+        for (int blow = 0; blow < static_cast<int>(g.wall_collisions[0]); ++blow) {
             changes += 1.5 * speed;
             wear += std::max(0.0, 0.5 * speed * speed * 0.75 - 0.05);
             speed *= 0.5;
         }
-        EXPECT_GE(g.collisions[0], 3) << kernel;
+        EXPECT_GE(g.wall_collisions[0], 3) << kernel;
         EXPECT_NEAR(std::abs(g.velocity[0].x), speed, 0.02 * speed) << kernel;
-        EXPECT_NEAR(g.collision_speed[0], changes, 0.02 * changes) << kernel;
-        EXPECT_NEAR(g.collision_wear[0], wear, 0.03 * wear) << kernel;
+        EXPECT_NEAR(g.wall_collision_speed[0], changes, 0.02 * changes) << kernel;
+        EXPECT_NEAR(g.wall_collision_wear[0], wear, 0.03 * wear) << kernel;
     }
 }
 
@@ -86,5 +86,5 @@ TEST(Collisions, are_not_counted_anew_while_a_contact_lasts_and_lists_are_made_a
         scene.run(200, 1e-6);
         scene.engine->prepare(scene.granules);
     }
-    EXPECT_EQ(scene.granules.collisions[0], 0) << "it lay there from the start";
+    EXPECT_EQ(scene.granules.wall_collisions[0], 0) << "it lay there from the start";
 }

@@ -169,7 +169,7 @@ RC_GTEST_PROP(Kernels, agree_with_the_plain_loops_over_random_contacts, ())
             RC_ASSERT(seen.contacts == plain.contacts);
             RC_ASSERT(std::abs(seen.largest_overlap - plain.largest_overlap) <= 1e-14);
             for (std::size_t row = 0; row < contacts.frame.owned; ++row) {
-                auto const &met = collisions[row], &plainly = plain_collisions[row];
+                auto const &met = collisions[row].granules, &plainly = plain_collisions[row].granules;
                 RC_ASSERT(met.count == plainly.count);
                 RC_ASSERT(std::abs(met.speed - plainly.speed) <= 1e-11);
                 RC_ASSERT(std::abs(met.wear - plainly.wear) <= 1e-11);

@@ -5,6 +5,7 @@
 #include "granum/law/droplet/size.hpp"
 #include "granum/law/layer/growth.hpp"
 #include "granum/law/layer/renewal.hpp"
+#include "granum/law/wetting/coalescence.hpp"
 #include "granum/population/balance.hpp"
 #include "granum/product/surface.hpp"
 #include "granum/sim/balance.hpp"
@@ -122,6 +123,82 @@ TEST(Growth, of_a_batch_has_the_thickness_of_its_layer)
             verify::relative("G01", fmt::format("layer on four sizes of cores after {:.0f} s, m", time), thickness,
                              0.5 * (classes.mean_diameter() - before), 2e-3);
         }
+    }
+}
+
+TEST(Agglomeration, of_equal_chances_follows_smoluchowski)
+{
+    scene::Table const table("g-02.csv");
+    // Volumes in units of v0; a pair joins at the rate 2, of one granule in all at the start: T = t.
+    population::Rates rates;
+    rates.agglomeration = [](double, double) { return 2.0; };
+    double const v0 = pi / 6;
+    auto equal = population::Classes::even(0.9, 7.5, 1320);
+    equal.add(1.0, 1);
+    auto spread = population::Classes::even(0.02, 8.5, 1300);
+    for (std::size_t k = 0; k < spread.size(); ++k) {
+        auto const above = [&](double edge) { return std::exp(-edge * edge * edge); };
+        spread.number[k] = above(spread.edges[k]) - above(spread.edges[k + 1]);
+    }
+    auto const of_size = [&](double volume) {
+        double sum = 0;
+        for (std::size_t k = 0; k < equal.size(); ++k)
+            if (std::abs(equal.volume(k) / v0 - volume) < 0.5) sum += equal.number[k];
+        return sum;
+    };
+    auto const second = [&](population::Classes const& classes) {
+        double sum = 0;
+        for (std::size_t k = 0; k < classes.size(); ++k) sum += classes.number[k] * std::pow(classes.volume(k) / v0, 2);
+        return sum;
+    };
+    // Between the two classes around it, in logarithms.
+    auto const density = [&](double volume) {
+        auto const at = [&](std::size_t k) {
+            double const width = std::pow(spread.edges[k + 1], 3) - std::pow(spread.edges[k], 3);
+            return std::pair{spread.volume(k) / v0, std::log(spread.number[k] / width)};
+        };
+        std::size_t k = 0;
+        while (spread.volume(k + 1) / v0 < volume) ++k;
+        auto const [below, low] = at(k);
+        auto const [above, high] = at(k + 1);
+        return std::exp(low + (high - low) * (volume - below) / (above - below));
+    };
+    double const square = second(equal), volume = equal.total_volume();
+    double now = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        double const until = table.number(row, "T");
+        population::advance(equal, rates, until - now);
+        population::advance(spread, rates, until - now);
+        now = until;
+        auto const words = fmt::format("constant kernel, T = {}: ", until);
+        verify::relative("G02", words + "granules", table.number(row, "N_over_N0"), equal.total(), 1e-2);
+        verify::relative("G02", words + "granules, exponential start", table.number(row, "N_over_N0"), spread.total(),
+                         1e-2);
+        verify::relative("G02", words + "volume", volume, equal.total_volume(), 1e-9);
+        for (int k : {1, 2, 3, 5})
+            if (double const share = table.number(row, fmt::format("N{}_over_N0", k)); share > 1e-3)
+                verify::relative("G02", fmt::format("{}granules of {}", words, k), share, of_size(k), 1e-2);
+        verify::relative("G02", words + "second moment of the volume", table.number(row, "M2_over_M2_0"),
+                         second(equal) / square, 3e-2);
+        verify::relative("G02", words + "density at v0, exponential start",
+                         table.number(row, "exp_start_n_at_v0_times_v0_over_N0"), density(1), 1e-2);
+        verify::relative("G02", words + "density at 3 v0, exponential start",
+                         table.number(row, "exp_start_n_at_3v0_times_v0_over_N0"), density(3), 1e-2);
+    }
+}
+
+TEST(Coalescence, is_decided_by_the_viscous_stokes_number)
+{
+    scene::Table const table("g-04.csv");
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        auto const number = [&](char const* name) { return table.number(row, name); };
+        double const stokes = law::wetting::viscous_stokes(number("rho_kg_per_m3"), number("r_m"), number("U_m_per_s"),
+                                                           number("mu_Pa_s"));
+        double const critical = law::wetting::critical_stokes(number("e"), number("h_m"), number("h_a_m"));
+        auto const words = fmt::format("granules of {:.0f} um at {} m/s: ", 1e6 * number("r_m"), number("U_m_per_s"));
+        verify::relative("G04", words + "viscous Stokes number", number("St_v"), stokes, 1e-6);
+        verify::relative("G04", words + "critical number", number("St_crit"), critical, 1e-6);
+        verify::absolute("G04", words + "stick", number("coalesces"), stokes < critical, 0);
     }
 }
 

@@ -11,7 +11,7 @@ namespace
 {
 //! A collision in which the granule approaches with `speed` (m/s), its partner making its mass `share` of its own, and
 //! bears `part` of what is dissipated.
-[[maybe_unused]] void collide(Collisions& with, Rules const& rules, double share, double speed, double restitution,
+[[maybe_unused]] void collide(Blows& with, Rules const& rules, double share, double speed, double restitution,
                               double part)
 {
     // Multiples of 2^-40: exact sums up to 2^12 m/s or J/kg.
@@ -43,8 +43,8 @@ namespace
         double const masses = low.inverse_mass + high.inverse_mass;
         auto const pairing = in.material ? in.material[i] * in.rules->materials + in.material[j] : in.pairing;
         double const restitution = in.rules->restitution[pairing];
-        collide(in.collisions[i], *in.rules, low.inverse_mass / masses, speed, restitution, 0.5);
-        collide(in.collisions[j], *in.rules, high.inverse_mass / masses, speed, restitution, 0.5);
+        collide(in.collisions[i].granules, *in.rules, low.inverse_mass / masses, speed, restitution, 0.5);
+        collide(in.collisions[j].granules, *in.rules, high.inverse_mass / masses, speed, restitution, 0.5);
     }
 }
 
@@ -59,7 +59,7 @@ namespace
             along += in.normal[d][place] * (in.bodies[i].velocity[d] - in.velocity[d][place]);
         double const restitution =
             in.rules->restitution[in.material[i] * in.rules->materials + in.wall_material[place]];
-        collide(in.collisions[i], *in.rules, 1, -along, restitution, 1);
+        collide(in.collisions[i].walls, *in.rules, 1, -along, restitution, 1);
     }
 }
 }

@@ -69,13 +69,19 @@ struct Rules
     double wear_threshold = 0;            //!< J/kg
 };
 
-//! The collisions of a granule (contacts that began) since somebody looked. All in whole multiples of powers of two, so
-//! that sums know no order.
-struct Collisions
+//! Collisions (contacts that began) since somebody looked. All in whole multiples of powers of two, so that sums know
+//! no order.
+struct Blows
 {
     double count = 0;
-    double speed = 0;  //!< sum of the changes of its velocity, m/s
+    double speed = 0;  //!< sum of the changes of the granule's velocity, m/s
     double wear = 0;   //!< sum of what they dissipate in it beyond Rules::wear_threshold, J per kg of it
+};
+
+//! Those of a granule.
+struct Collisions
+{
+    Blows granules, walls;
 };
 
 //! Energies of contacts, J, summed in two parts, each in multiples of its quantum (Rules::coarse_energy): neither the

@@ -8,7 +8,6 @@ namespace granum::law::layer
 struct NoAbrasion
 {
     static constexpr base::Card card{.name = "none", .title = "layers do not wear", .source = "", .valid = ""};
-    double threshold = 0;
 
     double operator()(double) const { return 0; }
 };
@@ -22,10 +21,9 @@ struct CollisionEnergy
                                      .valid = "coefficient and threshold from an attrition test of the product"};
 
     double coefficient = 0;  //!< kg of layer per J
-    double threshold = 0;    //!< J per kg of granule and collision
 
     //! Share of the granule's mass that it loses from its layer for `dissipated`, J per kg of granule beyond the
-    //! thresholds of its collisions.
+    //! thresholds of its collisions (dem::Settings::wear_threshold).
     double operator()(double dissipated) const { return coefficient * dissipated; }
 };
 
