@@ -39,10 +39,10 @@ Window window_of(std::vector<double> const& time, std::vector<double> const& sol
 std::vector<std::string> const& event_variables()
 {
     static std::vector<std::string> const all{
-        "drying_time", "moisture_at_impact",   "droplet_diameter", "normal_speed",
-        "weber",       "gas_temperature",      "drying_potential", "granule_temperature",
-        "coverage",    "solids_fraction",      "mean_flux",        "max_flux",
-        "footprint",   "mean_drying_potential"};
+        "drying_time", "moisture_at_impact",    "droplet_diameter", "normal_speed",
+        "weber",       "gas_temperature",       "drying_potential", "granule_temperature",
+        "coverage",    "solids_fraction",       "mean_flux",        "max_flux",
+        "footprint",   "mean_drying_potential", "wet_contacts",     "viscous_stokes"};
     return all;
 }
 
@@ -80,10 +80,11 @@ RunDeposits read_deposits(std::string const& folder, double interval)
     if (start.contains("settled_s") && start["settled_s"].is_null()) out.window.settled = false;
 
     auto& deposits = out.deposits;
-    deposits.names = event_variables();
-    deposits.values.resize(deposits.names.size());
     std::vector<std::vector<double> const*> columns;
-    for (auto const& name : deposits.names) columns.push_back(&column(name));
+    // A run of an older version may lack some; who asks for such a one is told.
+    for (auto const& name : event_variables())
+        if (auto const* found = table.find(name)) deposits.names.push_back(name), columns.push_back(found);
+    deposits.values.resize(deposits.names.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (times[k] < out.window.from) continue;
         deposits.time.push_back(times[k]);
