@@ -155,11 +155,23 @@ std::string ranked(std::vector<Outcome> const& outcomes, std::size_t reference, 
 std::string distributions(std::vector<Outcome> const& outcomes, std::string const& name, bool logarithmic,
                           std::string const& label)
 {
-    double low = 1e300, high = -1e300;
     auto const coordinate = [&](double value) { return logarithmic ? std::log10(value) : value; };
-    for (auto const& one : outcomes)
-        for (double const value : one.deposits.deposits.of(name))
-            if (double const x = coordinate(value); std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+    // A thousandth of the layer at either end of each point may lie anywhere and is put into the last bins.
+    double low = 1e300, high = -1e300;
+    for (auto const& one : outcomes) {
+        auto const& deposits = one.deposits.deposits;
+        std::vector<std::pair<double, double>> sorted;
+        double total = 0, below = 0;
+        for (std::size_t row = 0; row < deposits.solids.size(); ++row)
+            if (double const x = coordinate(deposits.of(name)[row]); std::isfinite(x))
+                sorted.emplace_back(x, deposits.solids[row]), total += deposits.solids[row];
+        std::sort(sorted.begin(), sorted.end());
+        for (auto const& [x, solids] : sorted) {
+            below += solids;
+            if (below < 1e-3 * total || below > (1 - 1e-3) * total) continue;
+            low = std::min(low, x), high = std::max(high, x);
+        }
+    }
     if (!(low < high)) return "";
     constexpr int bins = 24;
     report::CurveChart chart{.x = {label, logarithmic}, .y = {"share of the layer (%)"}};
@@ -171,8 +183,8 @@ std::string distributions(std::vector<Outcome> const& outcomes, std::string cons
         for (std::size_t row = 0; row < values.size(); ++row) {
             double const x = coordinate(values[row]);
             if (!std::isfinite(x)) continue;
-            share[static_cast<std::size_t>(
-                std::clamp(static_cast<int>(bins * (x - low) / (high - low)), 0, bins - 1))] += deposits.solids[row];
+            share[static_cast<std::size_t>(std::clamp(bins * (x - low) / (high - low), 0.0, bins - 1.0))] +=
+                deposits.solids[row];
             total += deposits.solids[row];
         }
         report::Curve curve{.label = outcomes[k].point.name,
