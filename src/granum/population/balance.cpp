@@ -91,10 +91,9 @@ double speed_for(std::vector<double> const& flux, Classes const& classes, double
     return gain > 0 ? wanted / gain : 0;
 }
 
-//! Deaths and births of granules that join; answers unions per second.
-double join(Classes const& classes, Unions const& unions, std::vector<double>& change, double& fastest)
+//! Deaths and births of granules that join.
+void join(Classes const& classes, Unions const& unions, std::vector<double>& change, double& fastest)
 {
-    double sum = 0;
     std::vector<double> deaths(classes.size());
     auto pair = unions.pairs.begin();
     for (std::size_t i = 0; i < classes.size(); ++i) {
@@ -105,7 +104,6 @@ double join(Classes const& classes, Unions const& unions, std::vector<double>& c
         for (std::size_t j = i; j < classes.size(); ++j, ++pair) {
             double const rate = (i == j ? 0.5 : 1.0) * pair->rate * classes.number[i] * classes.number[j];
             if (rate == 0) continue;
-            sum += rate;
             deaths[i] += rate, deaths[j] += rate;
             change[pair->to] += rate * pair->share;
             if (pair->to + 1 < classes.size()) change[pair->to + 1] += rate * (1 - pair->share);
@@ -115,7 +113,6 @@ double join(Classes const& classes, Unions const& unions, std::vector<double>& c
         change[k] -= deaths[k];
         if (classes.number[k] > 0) fastest = std::max(fastest, deaths[k] / classes.number[k]);
     }
-    return sum;
 }
 
 Change change_of(Classes const& classes, Rates const& rates, Unions const& unions)
@@ -152,7 +149,7 @@ Change change_of(Classes const& classes, Rates const& rates, Unions const& union
         if (classes.number[k] > 0) out.leaving = std::max(out.leaving, scale * leaves[k] / classes.number[k]);
     }
     out.rates.discharged = scale * leaving;
-    if (!unions.pairs.empty()) out.rates.unions = join(classes, unions, out.number, out.joining);
+    if (!unions.pairs.empty()) join(classes, unions, out.number, out.joining);
     return out;
 }
 
@@ -207,7 +204,6 @@ Passed advance(Classes& classes, Rates const& rates, double dt)
             out.grown += weight * change.rates.grown, out.born += weight * change.rates.born;
             out.fed += weight * change.rates.fed, out.discharged += weight * change.rates.discharged;
             out.number_discharged += weight * change.rates.number_discharged;
-            out.unions += weight * change.rates.unions;
             return change.number;
         });
         left = h >= 0.999999 * left ? 0 : left - h;

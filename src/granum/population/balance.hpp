@@ -36,7 +36,6 @@ struct Passed
 {
     double grown = 0, born = 0, fed = 0, discharged = 0;  //!< m3
     double number_discharged = 0;
-    double unions = 0;  //!< of two granules
 };
 
 //! Advances the classes by `dt`, in as many steps as the fastest growth asks for. Throws base::NumericsError where

@@ -39,7 +39,7 @@ double Simulation::liquid() const
     return comm_.sum(sum);
 }
 
-bool Simulation::settled()
+bool Simulation::look_if_settled()
 {
     if (time_ < 0.5 * least || time_ < longer * settling_.since) return false;
     bool const first = settling_.since == 0;
@@ -69,7 +69,7 @@ void Simulation::settle_bed(double before)
         in_[2] += heat;
         heat_.settling += heat;
     }
-    settling_.enough = settled();
+    settling_.enough = look_if_settled();
     if (settling_.enough || time_ >= case_.start.settling) settling_.end = time_;
 }
 }

@@ -177,7 +177,7 @@ class Simulation
     //! Heat capacity of the granules, J/K, and their mean temperature by it, K. Collective.
     std::array<double, 2> bed_temperature() const;
     void settle_bed(double before);  //!< `before`: mean temperature of the bed before the gas step. Collective.
-    bool settled();                  //!< looks whether it is so. Collective.
+    bool look_if_settled();          //!< whether the bed has; keeps what it saw for the next look. Collective.
     double liquid() const;           //!< kg of water in flight and in open deposits. Collective.
     void audit();
     std::array<double, 3> stocks() const;  //!< solids, water, energy of this rank

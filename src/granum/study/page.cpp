@@ -119,7 +119,7 @@ std::string table(std::vector<Outcome> const& outcomes, std::span<Column const> 
 }
 
 //! How far each point is from the reference, the nearest first: the property where there is a map, else the drying
-//! time; and the conditions of the deposits, in errors of the difference.
+//! time; and the conditions of the deposits; with the errors of the differences.
 std::string ranked(std::vector<Outcome> const& outcomes, std::size_t reference, std::vector<map::Shift> const& shifts,
                    std::string const& property)
 {
