@@ -157,16 +157,20 @@ void Engine::Inside::stop_alone() const
     if (comm.size() == 1 && !failure.empty()) throw base::NumericsError(failure);
 }
 
+// What part of its room any granule of this rank has used up.
 double Engine::Inside::farthest() const
 {
     double farthest2 = 0;
-    for (std::size_t row = 0; row < frame.owned; ++row)
-        farthest2 = std::max(farthest2, norm2(frame.position(row) - Frame::vec(frame.bodies[row].built)));
+    for (std::size_t row = 0; row < frame.owned; ++row) {
+        auto const& body = frame.bodies[row];
+        farthest2 = std::max(farthest2, body.per_room2 * norm2(frame.position(row) - Frame::vec(body.built)));
+    }
     return std::sqrt(farthest2);
 }
 
-// Whether the list no longer holds all that may touch, when no granule moved by more than `moved` (m) in this step. The
-// sum of such bounds grows faster than the true distance, which is looked up when the bound is used up. Collective.
+// Whether the list no longer holds all that may touch, when no granule used up more than `moved` of its room in this
+// step. The sum of such bounds grows faster than the true distance, which is looked up when the bound is used up.
+// Collective.
 bool Engine::Inside::outgrown(double moved)
 {
     struct
@@ -177,11 +181,10 @@ bool Engine::Inside::outgrown(double moved)
     if (mine.failed > 0) agree_on_failure();
     last_moved = mine.moved;
     travelled += mine.moved;
-    double const free = std::max(0.0, 0.5 * skin - growth);
-    if (travelled <= free) return false;
+    if (travelled <= free()) return false;
     travelled = comm.max(farthest());
     // What is left must do for some steps, or the true distance would be looked up in each of them.
-    return travelled + 4 * mine.moved > free;
+    return travelled + 4 * mine.moved > free();
 }
 
 Engine::Engine(Settings settings, par::Partition partition, par::Communicator const& comm)
@@ -278,7 +281,7 @@ void Engine::changed(particle::Store& granules)
     in.frame.refresh(granules);
     double growth = 0;
     for (std::size_t row = 0; row < granules.owned; ++row)
-        growth = std::max(growth, granules.radius[row] - in.frame.bodies[row].built_radius);
+        growth = std::max(growth, granules.radius[row] - in.built_radius[row]);
     in.growth = in.comm.max(growth);
     if (in.growth > 0.25 * in.skin) {
         in.rebuild(granules);

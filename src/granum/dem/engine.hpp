@@ -114,7 +114,8 @@ class Engine
     void changed(particle::Store& granules);
 
     //! Makes sure that every owned granule lies in this rank's part and in the periodic domain, so that a cell and the
-    //! granules in it are on one rank; between steps they may be ahead by half a skin. Collective. Rows may move.
+    //! granules in it are on one rank; between steps they may be ahead by what the list allows. Collective. Rows may
+    //! move.
     void bring_home(particle::Store& granules);
 
     //! Cuts space anew so that all ranks have as much to do, or as it is given. Collective. Rows may move.

@@ -5,6 +5,7 @@
 #include "granum/dem/held_gas.hpp"
 #include "granum/dem/wall_contacts.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace granum::dem
@@ -34,13 +35,14 @@ struct Engine::Inside
     kernel::Energy lost;  // in springs of contacts that ended while a list was made
     base::Stopwatch stopwatch;
 
-    double skin = 0;       // of the present list, m
-    double growth = 0;     // largest growth of a radius since the list was made, m
-    double travelled = 0;  // no granule went farther since the list was made, m
+    double skin = 0;                   // of the present list, m
+    double growth = 0;                 // largest growth of a radius since the list was made, m
+    double travelled = 0;              // no granule used up more of its room since the list was made
+    std::vector<double> built_radius;  // of owned rows when the list was made, m
     long steps = 0, built_step = 0;
     bool sorted = false;  // rows, at least once
     long unsorted_rebuilds = 0, unbalanced_rebuilds = 0;
-    double last_moved = 0;  // at most, by any granule of any rank in the last step, m
+    double last_moved = 0;  // of its room at most, by any granule of any rank in the last step
     double reserve = 2;     // a sweep is begun if the list will do for so many times as long
     std::string failure;    // seen on this rank, not yet told to the others
 
@@ -49,6 +51,7 @@ struct Engine::Inside
     // rebuild.cpp
     void rebuild(particle::Store& granules, std::span<ContactRecord const> saved = {});
     double next_skin(double mean_radius, double largest) const;
+    double give_room(double mean_radius, double largest);
     bool strayed() const;
     std::vector<double> work() const;
     void balance(particle::Store& granules);
@@ -73,5 +76,7 @@ struct Engine::Inside
     void finish_forces(double dt, kernel::Seen const& seen);
     bool outgrown(double moved);
     double farthest() const;
+    // Part of the least room that growth leaves.
+    double free() const { return std::max(0.0, 1 - growth / (0.5 * skin)); }
 };
 }

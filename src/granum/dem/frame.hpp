@@ -7,6 +7,7 @@
 #include "granum/particle/store.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -55,6 +56,12 @@ struct Frame
     static Vec3 vec(double const* from) { return {from[0], from[1], from[2]}; }
     Vec3 position(std::size_t row) const { return vec(bodies[row].position); }
     double radius(std::size_t row) const { return bodies[row].radius; }
+    //! How far it may go before the list is made anew, m; 0 before the first.
+    double room(std::size_t row) const
+    {
+        double const per = bodies[row].per_room2;
+        return per > 0 ? 1 / std::sqrt(per) : 0;
+    }
 
     //! Finds the unit of force from the stiffest pairing of the laws.
     void scale_to(Laws const& laws);

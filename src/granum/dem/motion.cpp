@@ -15,8 +15,8 @@ namespace
 constexpr int most_steps = Layers::most_steps;
 }
 
-// Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers how far any
-// went.
+// Kicks the granules of a part of a layer, `kicks` halves of a step, and lets them drift by a step. Answers what part
+// of its room any has used up.
 double Engine::Inside::move(double dt, Layers::Part const& part, int kicks, bool drifts)
 {
     auto const rows = layers.rows(part);
@@ -36,7 +36,7 @@ double Engine::Inside::move(double dt, Layers::Part const& part, int kicks, bool
     if (!seen.finite) find_non_finite();
     if (drifts && images.any)
         for (auto const row : rows) frame.wrap(domain, row);
-    return std::sqrt(seen.fastest2) * drift;
+    return std::sqrt(seen.hastiest2) * drift;
 }
 
 double Engine::Inside::move_all(double dt, int kicks, bool drifts)
@@ -48,12 +48,12 @@ double Engine::Inside::move_all(double dt, int kicks, bool drifts)
     return moved;
 }
 
-// How far any granule of any rank will go in the first step of a call, where others may have changed its velocity and
-// the gas: what the first kick makes of it. Collective.
+// What part of its room any granule of any rank will use up in the first step of a call, where others may have changed
+// its velocity and the gas: what the first kick makes of it. Collective.
 double Engine::Inside::first_move(double dt)
 {
     double const half = 0.5 * dt;
-    double fastest2 = 0;
+    double hastiest2 = 0;
     constexpr double infinite = std::numeric_limits<double>::infinity();  // what is not finite asks for a single step
     for (std::size_t row = 0; row < frame.owned; ++row) {
         auto const& body = frame.bodies[row];
@@ -65,9 +65,9 @@ double Engine::Inside::first_move(double dt)
             v += drag ? drag->pull[d] - drag->share * v : half * settings.gravity[d];
             speed2 += v * v;
         }
-        fastest2 = std::max(fastest2, std::isfinite(speed2) ? speed2 : infinite);
+        hastiest2 = std::max(hastiest2, std::isfinite(speed2) ? speed2 * body.per_room2 : infinite);
     }
-    return comm.max(std::sqrt(fastest2) * dt);
+    return comm.max(std::sqrt(hastiest2) * dt);
 }
 
 // How many of the `left` steps the next sweep does: as many as the list will do for with some reserve, since nobody
@@ -75,9 +75,9 @@ double Engine::Inside::first_move(double dt)
 int Engine::Inside::steps_together(int left) const
 {
     if (walls.any_motion()) return 1;
-    double const room = std::max(0.0, 0.5 * skin - growth - travelled), each = reserve * last_moved;
+    double const left_over = std::max(0.0, free() - travelled), each = reserve * last_moved;
     int const sweeps = (left + most_steps - 1) / most_steps, together = (left + sweeps - 1) / sweeps;
-    return each * together <= room ? together : std::max(1, static_cast<int>(room / each));
+    return each * together <= left_over ? together : std::max(1, static_cast<int>(left_over / each));
 }
 
 // Does `together` steps in one sweep over the layers: layer k takes its step t when layer k + 1 has taken step t - 1.
@@ -135,7 +135,7 @@ void Engine::Inside::sweep(double dt, int together, bool first)
     if (moved.back() > 0) agree_on_failure();
     for (std::size_t t = 0; t < steps_of_sweep; ++t) travelled += moved[t];
     last_moved = moved[steps_of_sweep - 1];
-    if (double const free = 0.5 * skin - growth; travelled > free && (travelled = comm.max(farthest())) > free) {
+    if (travelled > free() && (travelled = comm.max(farthest())) > free()) {
         ++watch.late_lists;
         reserve *= 2;
     }

@@ -27,13 +27,21 @@ struct Candidates
     std::vector<std::uint32_t> near_end;
 };
 
+//! How far apart surfaces of pairs may be, m.
+struct Gaps
+{
+    double skin;   //!< of all pairs, and as much more as a row has more room than `room`
+    double close;  //!< of those that are near
+    double room;   //!< what rows have at least (Frame::room)
+};
+
 class NeighbourSearch
 {
   public:
-    //! All pairs of rows with at least one owned whose surfaces are closer than `skin` (m); closer than `close` (m)
-    //! they are near. Two images of one granule are no pair. `centre` is a point of the region that this rank owns: in
-    //! periodic directions a row counts where its image is nearest to it.
-    void find(Frame const& frame, Domain const& domain, Vec3 const& centre, double skin, double close, Candidates& out,
+    //! All pairs of rows with at least one owned whose surfaces are closer than the gaps. Two images of one granule are
+    //! no pair. `centre` is a point of the region that this rank owns: in periodic directions a row counts where its
+    //! image is nearest to it.
+    void find(Frame const& frame, Domain const& domain, Vec3 const& centre, Gaps const& gaps, Candidates& out,
               kernel::Kernel const& kernel);
 
     //! Rows cell by cell, cells as wide as `width` (m): neighbours in space become neighbours in memory.
@@ -51,6 +59,7 @@ class NeighbourSearch
         std::array<bool, 3> wraps{};
         std::array<std::size_t, 3> stride{};  // the longest side has the largest stride
         std::size_t begin = 0;                // of this class in rows_ and places_
+        double radius = 0;                    // of the largest that it is for, m
         std::vector<std::uint32_t> start;     // start[c] .. start[c + 1] lie in cell c, counted from `begin`
 
         std::array<int, 3> at(Place const& place) const;
@@ -61,6 +70,7 @@ class NeighbourSearch
     void place(Frame const& frame, Domain const& domain, Vec3 const& centre);
     void classify(Domain const& domain, double skin);
     void fill(Cells& cells, Domain const& domain, std::vector<std::uint32_t> const& rows, double width);
+    void look_ahead(Frame const& frame, Domain const& domain, Gaps const& gaps, std::vector<PairRows>& out) const;
     template <class Consider>
     void visit(Cells const& cells, std::array<int, 3> const& at, bool half, Consider&& consider) const;
 

@@ -82,6 +82,36 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
     return width;
 }
 
+// How far each owned row may go before the next list: half the skin, and the few that are much faster than the others
+// more in proportion, or these few would make lists of all. Answers the most of any rank, m. Collective.
+double Engine::Inside::give_room(double mean_radius, double largest)
+{
+    constexpr double few = 0.01, most_ahead = 0.5;  // of rows; of a radius
+    std::vector<double> speed2(frame.owned);
+    for (std::size_t row = 0; row < frame.owned; ++row) speed2[row] = norm2(Frame::vec(frame.bodies[row].velocity));
+    double usual2 = 0;
+    if (!speed2.empty()) {
+        auto const place = speed2.end() - 1 - static_cast<std::ptrdiff_t>(few * static_cast<double>(frame.owned));
+        std::nth_element(speed2.begin(), place, speed2.end());
+        usual2 = *place;
+    }
+    double const usual = std::sqrt(comm.max(usual2)), least = 0.5 * skin;
+    double most = least + most_ahead * mean_radius;
+    for (std::size_t d = 0; d < 3; ++d)
+        if (domain.periodic[d])
+            most = std::clamp(0.12 * (domain.size()[d] - 4 * largest) - 0.5 * settings.sight, least, most);
+    double roomiest = least;
+    for (std::size_t row = 0; row < frame.owned; ++row) {
+        auto& body = frame.bodies[row];
+        double const speed = norm(Frame::vec(body.velocity));
+        double const room = speed > usual && usual > 0 ? std::min(most, least * speed / usual) : least;
+        std::copy_n(body.position, 3, body.built);
+        body.per_room2 = 1 / (room * room);
+        roomiest = std::max(roomiest, room);
+    }
+    return comm.max(roomiest);
+}
+
 std::vector<ContactRecord> Engine::Inside::contacts_of(std::vector<std::uint32_t> const& rows,
                                                        std::span<ContactRecord const> saved) const
 {
@@ -188,12 +218,13 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         }
         frame.take(granules);
     }
-    double const wide = skin + settings.sight, reach = 2 * largest + wide;
+    double const roomiest = give_room(mean, largest), wide = skin + settings.sight;
+    double const reach = 2 * (largest + roomiest) + settings.sight;
     if (many) halo.fill(frame, reach);
 
     layers.make(frame, domain, halo.partition(), comm.rank(), reach);
     watch.strips = static_cast<long>(layers.strips());
-    search.find(frame, domain, centre, wide, near_part * skin, candidates, *kernel);
+    search.find(frame, domain, centre, {wide, near_part * skin, 0.5 * skin}, candidates, *kernel);
     std::unique_ptr<RowIndex> index;
     if (many || !saved.empty()) index = std::make_unique<RowIndex>(frame.id);
     auto const row_now = [&](std::uint32_t row) {
@@ -204,7 +235,7 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
         return many && row < ids_before.size() ? (*index)(ids_before[row]) : RowIndex::nowhere;
     };
     pairs.make(frame, layers, candidates, row_now, owned_before, rules, lost);
-    walls.make(frame, layers, wide, largest, row_now, rules, lost);
+    walls.make(frame, layers, 0.5 * skin + settings.sight, largest + roomiest, row_now, rules, lost);
     auto const restore = [&](std::span<ContactRecord const> records) {
         for (auto const& record : records) {
             auto const low = (*index)(record.low);
@@ -219,10 +250,8 @@ void Engine::Inside::rebuild(particle::Store& granules, std::span<ContactRecord 
     restore(arrived);
     restore(saved);
 
-    for (std::size_t row = 0; row < frame.owned; ++row) {
-        auto& body = frame.bodies[row];
-        std::copy_n(body.position, 4, body.built);
-    }
+    built_radius.resize(frame.owned);
+    for (std::size_t row = 0; row < frame.owned; ++row) built_radius[row] = frame.radius(row);
     built_step = steps;
     growth = 0;
     travelled = 0;

@@ -126,7 +126,7 @@ double WallContacts::moved() const
     return std::sqrt(farthest2);
 }
 
-void WallContacts::make(Frame const& frame, Layers const& layers, double skin, double largest,
+void WallContacts::make(Frame const& frame, Layers const& layers, double room, double farthest,
                         std::function<std::uint32_t(std::uint32_t)> const& row_now, kernel::Rules const& rules,
                         kernel::Energy& lost)
 {
@@ -144,7 +144,7 @@ void WallContacts::make(Frame const& frame, Layers const& layers, double skin, d
     clear();
     for (auto& body : bodies_) {
         body.built = body.pose;
-        body.reach = largest + skin;
+        body.reach = farthest + room;
     }
     layers_ = &layers;
     near_begin_.assign(1, 0);
@@ -154,9 +154,10 @@ void WallContacts::make(Frame const& frame, Layers const& layers, double skin, d
             for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
                 auto const& plane = bodies_[b].plane;
                 Vec3 const x = frame.position(row);
-                if (plane && dot(x - plane->point, plane->normal) >= frame.radius(row) + skin) continue;
+                double const reach = frame.radius(row) + frame.room(row) + room;
+                if (plane && dot(x - plane->point, plane->normal) >= reach) continue;
                 std::size_t const first = facets_.size();
-                look_around(x, frame.radius(row) + skin, b);
+                look_around(x, reach, b);
                 auto const places = static_cast<std::uint32_t>(std::min(facets_.size() - first, most_touches));
                 if (places == 0) continue;
                 near_.push_back({row, b, static_cast<std::uint32_t>(size_), places, first});

@@ -38,9 +38,10 @@ class WallContacts
     //! ranks.
     double moved() const;
 
-    //! Lists the owned granules closer than `skin` (m) to a body; `largest` is the largest radius of all ranks (m).
-    //! `row_now` and `lost` as in PairList::make.
-    void make(Frame const& frame, Layers const& layers, double skin, double largest,
+    //! Lists the owned granules that come to touch a body when they use up their room (Frame::room) and it moves by
+    //! `room` (m); `farthest` is the largest radius with its room of all ranks (m). `row_now` and `lost` as in
+    //! PairList::make.
+    void make(Frame const& frame, Layers const& layers, double room, double farthest,
               std::function<std::uint32_t(std::uint32_t)> const& row_now, kernel::Rules const& rules,
               kernel::Energy& lost);
 

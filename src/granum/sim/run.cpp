@@ -240,6 +240,7 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         }
         comm.sum(performance.seconds);
         performance.granule_steps = simulation.granule_steps();
+        performance.lists = simulation.mover().watch().rebuilds;
         if (simulation.has_gas()) performance.heat = simulation.heat();
         auto const& gas = simulation.gas_work();
         std::array<double, 4> work{gas.cell_steps, gas.bytes, gas.iterations, gas.sweeps};

@@ -209,6 +209,10 @@ std::string summary(Simulation& simulation, Output const& output, Performance co
     for (double s : performance.seconds) total += s;
     out["performance"]["granule_steps_per_s"] =
         performance.wall > 0 ? static_cast<double>(performance.granule_steps) / performance.wall : 0;
+    if (double const parcels = static_cast<double>(simulation.data().granules.parcels);
+        parcels > 0 && performance.lists > 0)
+        out["performance"]["steps_per_list"] =
+            static_cast<double>(performance.granule_steps) / parcels / static_cast<double>(performance.lists);
     for (std::size_t s = 0; s < performance.seconds.size(); ++s)
         out["performance"]["share"][std::string(base::stage_names[s])] = total > 0 ? performance.seconds[s] / total : 0;
     for (std::size_t s = 0; s < performance.seconds.size(); ++s)

@@ -13,6 +13,7 @@ struct Performance
     double wall = 0;  //!< s
     std::array<double, static_cast<std::size_t>(base::Stage::count)> seconds{};
     long granule_steps = 0;
+    long lists = 0;  //!< neighbour lists that were made
     HeatTotals heat{};
     GasWork gas;             //!< of this leg of the run
     double triad_rate = 0;   //!< bytes/s of a rank; 0: not measured

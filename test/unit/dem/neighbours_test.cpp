@@ -14,6 +14,8 @@ using namespace granum;
 using dem::Vec3;
 
 // Granules at random in a box, sizes from `smallest` to 1 mm radius; the last fifth of the rows belong to others.
+constexpr double least_room = 1.2e-4;  // m
+
 dem::Frame cloud(Vec3 const& box, double smallest, std::uint32_t seed)
 {
     dem::Frame frame;
@@ -25,12 +27,15 @@ dem::Frame cloud(Vec3 const& box, double smallest, std::uint32_t seed)
         frame.id[row] = (row * 7919) % rows;
         for (std::size_t d = 0; d < 3; ++d) frame.bodies[row].position[d] = box[d] * random.uniform();
         frame.bodies[row].radius = 1e-3 * smallest * std::pow(1 / smallest, random.uniform());
+        // One in ten is fast.
+        double const room = least_room * (random.uniform() < 0.1 ? 1 + 4 * random.uniform() : 1);
+        frame.bodies[row].per_room2 = 1 / (room * room);
     }
     return frame;
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> plain_double_loop(dem::Frame const& frame, dem::Domain const& domain,
-                                                                    double skin)
+                                                                    double skin, bool with_room)
 {
     std::set<std::pair<std::uint32_t, std::uint32_t>> out;
     for (std::uint32_t a = 0; a < frame.rows(); ++a)
@@ -39,14 +44,15 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> plain_double_loop(dem::Frame c
             Vec3 apart = frame.position(a) - frame.position(b);
             for (std::size_t d = 0; d < 3; ++d)
                 if (domain.periodic[d]) apart[d] -= domain.size()[d] * std::round(apart[d] / domain.size()[d]);
-            if (norm(apart) < frame.radius(a) + frame.radius(b) + skin) out.insert({a, b});
+            double const ahead = with_room ? frame.room(a) + frame.room(b) - 2 * least_room : 0;
+            if (norm(apart) < frame.radius(a) + frame.radius(b) + skin + ahead) out.insert({a, b});
         }
     return out;
 }
 
 TEST(NeighbourSearch, finds_exactly_the_pairs_of_the_plain_double_loop_from_low_to_high_id)
 {
-    double const skin = 3e-4;
+    double const skin = 3e-4;  // a little more than the rooms of two: what is seen at a distance
     for (auto const* kernel : dem::kernel::kernels())
         for (double const smallest : {1.0, 0.5, 0.1, 0.02})
             for (int periodic = 0; periodic < 8; ++periodic)
@@ -56,14 +62,14 @@ TEST(NeighbourSearch, finds_exactly_the_pairs_of_the_plain_double_loop_from_low_
                         {0, 0, 0}, box, {(periodic & 1) != 0, (periodic & 2) != 0, (periodic & 4) != 0}};
                     dem::NeighbourSearch search;
                     dem::Candidates found;
-                    search.find(frame, domain, 0.5 * box, skin, 0.2 * skin, found, *kernel);
-                    auto const expected = plain_double_loop(frame, domain, skin);
+                    search.find(frame, domain, 0.5 * box, {skin, 0.2 * skin, least_room}, found, *kernel);
+                    auto const expected = plain_double_loop(frame, domain, skin, true);
                     std::set<std::pair<std::uint32_t, std::uint32_t>> got, near;
                     for (auto const& [low, high] : found.near) got.insert({low, high}), near.insert({low, high});
                     for (auto const& [low, high] : found.far) got.insert({low, high});
                     EXPECT_EQ(got, expected) << smallest << " " << periodic << " " << box.x;
                     EXPECT_EQ(got.size(), found.near.size() + found.far.size());  // none twice
-                    EXPECT_EQ(near, plain_double_loop(frame, domain, 0.2 * skin));
+                    EXPECT_EQ(near, plain_double_loop(frame, domain, 0.2 * skin, false));
                     for (std::uint32_t row = 0; row < frame.rows(); ++row)
                         for (auto k = found.near_begin[row]; k < found.near_end[row]; ++k)
                             EXPECT_TRUE(found.near[k].low == row || found.near[k].high == row);
@@ -97,6 +103,50 @@ TEST(NeighbourList, made_anew_before_a_step_was_done_is_as_wide_as_before)
     double const width = scene.engine->skin();
     for (int again = 0; again < 3; ++again) scene.engine->prepare(scene.granules);
     EXPECT_EQ(scene.engine->skin(), width);
+}
+
+// A cloud of slow granules, through which a few fly fast, from wall to wall.
+scene::Scene shot_through(double skin)
+{
+    scene::Scene scene(scene::limestone);
+    double const radius = 1e-3, edge = 0.03;
+    scene.enclose({0, 0, 0}, {edge, edge, edge});
+    scene.settings.skin = skin;
+    scene.settings.gravity = {};
+    for (int k = 0; k < 10; ++k)
+        for (int j = 0; j < 10; ++j)
+            for (int i = 0; i < 10; ++i) {
+                base::Random random(5, base::Purpose::test, scene.granules.rows(), 0);
+                double const speed = scene.granules.rows() % 250 == 55 ? 8 : 0.1;
+                scene.add({3e-3 * i + 1.5e-3, 3e-3 * j + 1.5e-3, 3e-3 * k + 1.5e-3},
+                          speed * Vec3{random.normal(), random.normal(), random.normal()}, radius, 2500);
+            }
+    scene.prepare();
+    return scene;
+}
+
+TEST(NeighbourList, is_not_made_anew_for_all_because_a_few_are_fast)
+{
+    constexpr int steps = 4000;
+    constexpr double dt = 1e-6, skin = 0.4e-3;
+    auto scene = shot_through(skin), plain = shot_through(0.05 * skin);
+    scene.run(steps, dt);
+    double flown = 0;
+    for (int k = 0; k < steps; ++k) {
+        plain.run(1, dt);
+        double fastest = 0;
+        for (std::size_t row = 0; row < plain.granules.owned; ++row)
+            fastest = std::max(fastest, norm(plain.granules.velocity[row]));
+        flown += fastest * dt;
+    }
+    EXPECT_LT(static_cast<double>(scene.engine->watch().rebuilds), 0.7 * flown / (0.5 * skin));
+    EXPECT_EQ(scene.engine->watch().late_lists, 0);
+    EXPECT_GT(plain.engine->watch().dissipated.value(), 0);
+    for (std::size_t row = 0; row < plain.granules.owned; ++row) {
+        auto const other = scene.row(plain.granules.id[row]);
+        EXPECT_EQ(plain.granules.position[row], scene.granules.position[other]);
+        EXPECT_EQ(plain.granules.spin[row], scene.granules.spin[other]);
+    }
 }
 
 // Each pair, and each wall beside a granule, that is closer than the gap, at whatever time one looks.

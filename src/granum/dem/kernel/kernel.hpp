@@ -26,8 +26,9 @@ struct alignas(64) Body
     double position[3], radius;
     double velocity[3], inverse_mass;
     double spin[3], rounder;
-    double built[3], built_radius;  //!< where it was, and how large, when the neighbour list was made
-    double force[4], torque[4];     //!< of its contacts, N and N m; the fourth numbers stay zero
+    double built[3], per_room2;  //!< where it was when the neighbour list was made, and one over the square of how far
+                                 //!< it may go before the next one is
+    double force[4], torque[4];  //!< of its contacts, N and N m; the fourth numbers stay zero
 };
 
 //! A row as contacts name it: the distance of its first number from that of row 0, so that an address is one addition.
@@ -182,7 +183,7 @@ struct Motion
 };
 struct MotionSeen
 {
-    double fastest2 = 0;  //!< an upper bound of the squared speeds, m2/s2
+    double hastiest2 = 0;  //!< an upper bound of what rows use up of their room per time, squared, 1/s2
     bool finite = true;
 };
 

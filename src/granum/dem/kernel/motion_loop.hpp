@@ -51,7 +51,7 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
     for (std::size_t c = 0; c < 4; c += lanes) {
         auto const fall = hn::Load(d, weight + c), along = hn::Load(d, drift + c);
         auto const three = hn::FirstN(d, 3 - c);
-        auto fastest = none, odd = none;
+        auto hastiest = none, odd = none;
         for (std::size_t k = 0; k < in.count; ++k) {
             auto const row = in.rows[k];
             Body& body = in.bodies[row];
@@ -78,7 +78,7 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
             if constexpr (Drifts) {
                 hn::Store(hn::Add(hn::Load(d, body.position + c), hn::Mul(along, velocity)), d, body.position + c);
                 auto const square = hn::Mul(velocity, velocity);
-                fastest = hn::Max(fastest, square);
+                hastiest = hn::Max(hastiest, hn::Mul(square, hn::Set(d, body.per_room2)));
                 odd = hn::MulAdd(hn::Add(square, spin), none, odd);  // zero as long as all is finite
             }
             hn::Store(velocity, d, body.velocity + c);
@@ -86,9 +86,9 @@ HWY_FLATTEN void move_rows(Motion const& in, MotionSeen& seen)
         }
         if constexpr (Drifts) {
             alignas(32) double each[4], miss[4];
-            hn::Store(fastest, d, each), hn::Store(odd, d, miss);
+            hn::Store(hastiest, d, each), hn::Store(odd, d, miss);
             for (std::size_t lane = 0; lane < lanes; ++lane) {
-                if (c + lane < 3) seen.fastest2 += each[lane];
+                if (c + lane < 3) seen.hastiest2 += each[lane];
                 seen.finite = seen.finite && miss[lane] == 0;
             }
         }

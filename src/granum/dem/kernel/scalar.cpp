@@ -236,7 +236,7 @@ void move(Motion const& in, MotionSeen& seen)
             seen.finite = seen.finite && std::isfinite(velocity) && std::isfinite(spin);
             if (in.clear) body.force[d] = body.torque[d] = 0;
         }
-        seen.fastest2 = std::max(seen.fastest2, speed2);
+        seen.hastiest2 = std::max(seen.hastiest2, speed2 * body.per_room2);
     }
 }
 
