@@ -3,7 +3,7 @@
 
 #include "cores.hpp"
 #include "granum/sim/case_reader.hpp"
-#include "granum/sim/forecast.hpp"
+#include "granum/sim/wall_time.hpp"
 
 #include <fmt/core.h>
 
@@ -84,9 +84,9 @@ int check(std::string const& path)
                                     100 * b.outlet_relative_humidity, b.wet_bulb - 273.15, b.eta));
     }
     line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));
-    if (f.wall_time > 0)
-        line("wall time", fmt::format("about {} for {:.3g} s on {} {}", duration(f.wall_time), data.time.duration,
-                                      ranks, ranks == 1 ? "core" : "cores"));
+    if (double const seconds = sim::wall_time(data, f, ranks, sim::machine_speed(ranks)); seconds > 0)
+        line("wall time", fmt::format("about {} for {:.3g} s on {} {}", duration(seconds), data.time.duration, ranks,
+                                      ranks == 1 ? "core" : "cores"));
     for (auto const& warning : resolved.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("the case can be run\n");
     return 0;

@@ -86,7 +86,10 @@ double Engine::Inside::next_skin(double mean_radius, double largest) const
 // more in proportion, or these few would make lists of all. Answers the most of any rank, m. Collective.
 double Engine::Inside::give_room(double mean_radius, double largest)
 {
-    constexpr double few = 0.01, most_ahead = 0.5;  // of rows; of a radius
+    constexpr double few = 0.01;  // of rows
+    // Of a radius: with half of the widest skin less than one, so that no granule is ahead of its rank's part by half
+    // of the narrowest gas cell.
+    constexpr double most_ahead = 0.5;
     std::vector<double> speed2(frame.owned);
     for (std::size_t row = 0; row < frame.owned; ++row) speed2[row] = norm2(Frame::vec(frame.bodies[row].velocity));
     double usual2 = 0;

@@ -271,7 +271,7 @@ struct GasCase
     Vec3 initial_velocity;     //!< m/s
 };
 
-//! [spray]: one liquid, any number of nozzles share its rate equally (this issue: one nozzle).
+//! [spray]: one liquid, any number of nozzles share its rate equally.
 struct NozzleCase
 {
     Vec3 position;                    //!< m

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 namespace granum::sim
@@ -56,35 +55,6 @@ double largest_overlap(Case const& data, double radius, double speed)
         0.4);
 }
 
-//! Contact-like evaluations per second of one core, timed for 20 ms of processor time: roots and divisions that wait
-//! for each other, as a contact's do.
-double kernel_rate()
-{
-    auto const now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-    double const start = now();
-    double seconds = 0, x = 1.1;
-    long done = 0;
-    while (seconds < 0.02) {
-        for (int i = 0; i < 1000; ++i) {
-            double const r = std::sqrt(x * x + 0.3);
-            x += (1.2 - r) * std::sqrt(r) / r;
-        }
-        done += 1000;
-        seconds = now() - start;
-    }
-    return std::isfinite(x) ? static_cast<double>(done) / seconds : 1;  // the use of x keeps the loop
-}
-
-// The estimate of wall time counts work in evaluations of the kernel above, as measured on this program's own runs:
-// doc/howto/size-a-run.md says which. On other processors their ratio to the kernel is another.
-constexpr double evaluations_per_granule_step = 4.5;  //!< of granules at rest on each other
-constexpr double evaluations_per_flying_step = 1.93;  //!< of granules that gas keeps apart
-constexpr double evaluations_per_cell_step = 65;      //!< of an open cell: momentum, pressure, vapour, heat
-constexpr double evaluations_per_exchange = 32;       //!< of a parcel in a gas step
-constexpr double evaluations_per_droplet = 9500;      //!< a droplet parcel's flight and the drying of its deposit
-constexpr double beside = 1.05;                       //!< all else: pictures, checkpoints, set-up
-constexpr double lost_per_rank = 0.14;                //!< by each further rank, to memory and uneven work
-constexpr double waiting_per_gas_step = 2.4e5;        //!< of ranks for each other's messages
 constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
 constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
 constexpr double bytes_per_cell = 800;          //!< fields and the rows of the pressure matrix (assumed)
@@ -220,8 +190,11 @@ Forecast forecast(Case const& data, int ranks)
             if (data.gas.cells[i] > 1) narrow = std::min(narrow, out.cell_size[i]);
         }
         if (out.parcel_diameter > 0) out.cell_over_parcel = narrow / out.parcel_diameter;
-        for (auto const& nozzle : data.spray.nozzles)  // the jet where it fills one cell
-            fast = std::max(fast, std::sqrt(nozzle.air_mass_flow * nozzle.air_velocity / (density * narrow * narrow)));
+        // The jet where it is fastest: momentum of a Gaussian profile that has become 1.2 cells wide at half its
+        // height.
+        constexpr double jet = 0.55;
+        for (auto const& nozzle : data.spray.nozzles)
+            fast = std::max(fast, jet * std::sqrt(nozzle.air_mass_flow * nozzle.air_velocity / density) / narrow);
         out.gas_step = data.time.gas_step.value_or(
             std::min(narrow / fast, out.granule_step > 0 ? 50 * out.granule_step : INFINITY));
     }
@@ -230,21 +203,6 @@ Forecast forecast(Case const& data, int ranks)
     double const parcels = static_cast<double>(out.parcels), cells = static_cast<double>(out.cells);
     double const each = bytes_per_parcel + (data.gas.present ? bytes_of_gas_and_layer : 0);
     out.memory = parcels * each + cells * bytes_per_cell + ranks * bytes_per_rank;
-    double work = 0;
-    double const time = data.time.duration, gas_steps = out.gas_step > 0 ? time / out.gas_step : 0;
-    bool const flies = out.plate_velocity > out.minimum_fluidisation;
-    if (out.granule_step > 0)
-        work +=
-            time / out.granule_step * parcels * (flies ? evaluations_per_flying_step : evaluations_per_granule_step);
-    if (gas_steps > 0) {
-        auto const extent = data.chamber.upper() - data.chamber.lower();
-        double const open = data.chamber.volume() / (extent.x * extent.y * extent.z);
-        work += gas_steps * (open * cells * evaluations_per_cell_step + parcels * evaluations_per_exchange);
-    }
-    if (!data.spray.nozzles.empty()) work += time * data.spray.parcels_per_second * evaluations_per_droplet;
-    work *= beside * (1 + lost_per_rank * (ranks - 1)) / std::max(1, ranks);
-    if (ranks > 1) work += gas_steps * waiting_per_gas_step;
-    out.wall_time = work / kernel_rate();
     add_warnings(data, out);
     return out;
 }

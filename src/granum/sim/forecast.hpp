@@ -1,4 +1,4 @@
-// What a case implies before anything is run: sizes, speeds, steps, balance, memory and time.
+// What a case implies before anything is run: sizes, speeds, steps, balance and memory.
 #pragma once
 
 #include "granum/dem/engine.hpp"
@@ -31,8 +31,7 @@ struct Forecast
     math::Vec3 cell_size;         //!< m
     double cell_over_parcel = 0;  //!< narrowest cell edge over parcel diameter
     std::optional<Balance> balance;
-    double memory = 0;     //!< bytes
-    double wall_time = 0;  //!< s on `ranks` cores of this machine
+    double memory = 0;  //!< bytes on all ranks
     std::vector<std::string> warnings;
 };
 

@@ -4,8 +4,8 @@
 #include "granum/base/error.hpp"
 #include "granum/math/constants.hpp"
 #include "granum/sim/build.hpp"
-#include "granum/sim/forecast.hpp"
 #include "granum/sim/law_families.hpp"
+#include "granum/sim/wall_time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -278,5 +278,36 @@ TEST(Forecast, of_the_lab_case_is_its_geometry_and_weight)
     EXPECT_NEAR(f.plate_velocity, 0.04 * 1.008 / (0.9956 * math::pi * 0.09 * 0.09), 0.005);
     EXPECT_GT(f.plate_velocity, f.minimum_fluidisation);
     EXPECT_LT(f.plate_velocity, f.terminal_velocity);
+}
+
+TEST(WallTime, counts_work_by_processor_and_memory)
+{
+    auto const data = read_case(example("01-lab-layering")).data;
+    auto const f = forecast(data, 1);
+    MachineSpeed const usual{5e7, 2e10}, quick{1e8, 2e10}, wide{5e7, 4e10}, both{1e8, 4e10};
+    double const one = wall_time(data, f, 1, usual);
+    EXPECT_NEAR(one / wall_time(data, f, 1, both), 2, 1e-12);
+    for (auto const& better : {quick, wide}) {
+        EXPECT_LT(wall_time(data, f, 1, better), one);
+        EXPECT_GT(wall_time(data, f, 1, better), one / 2);
+    }
+    double const two = wall_time(data, f, 2, usual);
+    EXPECT_LT(two, one);
+    EXPECT_GT(two, one / 2);
+    // Granules that do not stay in caches ask memory for them: eight beds cost more than eight times one.
+    auto alone = data;
+    alone.spray.nozzles.clear();
+    auto large = f;
+    large.parcels *= 8, large.cells *= 8;
+    EXPECT_GT(wall_time(alone, large, 1, usual), 8.5 * wall_time(alone, f, 1, usual));
+    EXPECT_EQ(wall_time(Case{}, Forecast{}, 1, usual), 0);
+}
+
+TEST(WallTime, is_told_for_the_machine_at_hand)
+{
+    auto const speed = machine_speed(2);
+    EXPECT_GT(speed.evaluations, 1e5);
+    EXPECT_GT(speed.bytes, 1e8);
+    EXPECT_TRUE(std::isfinite(speed.evaluations) && std::isfinite(speed.bytes));
 }
 }
