@@ -2,6 +2,7 @@
 #include "granum/base/error.hpp"
 #include "granum/drying/impact.hpp"
 #include "granum/math/random_direction.hpp"
+#include "granum/sim/build.hpp"
 #include "granum/sim/simulation.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ constexpr double kept_speed = 0.5;          // of that at impact by what flies o
 
 void Simulation::find_nozzle_cells()
 {
-    around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank());
+    around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank(),
+                                                    2 * largest_radius(case_));
     nozzle_weights_.clear();
     for (auto const& nozzle : nozzles_) {
         double const cell = grid::widest_at(lines_, nozzle.position);

@@ -13,8 +13,8 @@ using math::Vec3;
 
 DropletSurroundings::DropletSurroundings(grid::Grid const& grid, Mapping const& mapping,
                                          std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition,
-                                         int rank)
-    : grid_(grid), mapping_(mapping), nozzles_(nozzles), partition_(partition), rank_(rank)
+                                         int rank, double parcel_diameter)
+    : grid_(grid), mapping_(mapping), nozzles_(nozzles), partition_(partition), rank_(rank), nearest_(parcel_diameter)
 {
     // The cells carry the jet once its half-width is one and a half cells (physics.md 4.1).
     double cell = 0;
@@ -93,31 +93,31 @@ void DropletSurroundings::give(Vec3 const& x, spray::Given const& given)
     for (std::size_t d = 0; d < 3; ++d) mapping_.spread(stencil, given.momentum[d] / dt_, sources_->force[d]);
 }
 
+// From the parcels next to the droplet alone, whatever the cells: a wider choice would take deposits out of the spray's
+// cone, and granules would pass it with less on them. Where there is none so near, farther ones.
 void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out) const
 {
     out.clear();
-    auto const [ci, cj, ck] = cell_of(x);
-    Vec3 const size{grid_.axes[0].width(ci), grid_.axes[1].width(cj), grid_.axes[2].width(ck)};
+    constexpr double farthest = 4;
     double solids = 0;
-    for (int k = std::max(ck - 1, 0); k <= std::min(ck + 1, grid_.n[2] - 1); ++k)
-        for (int j = std::max(cj - 1, 0); j <= std::min(cj + 1, grid_.n[1] - 1); ++j)
-            for (int i = std::max(ci - 1, 0); i <= std::min(ci + 1, grid_.n[0] - 1); ++i) {
-                Index const cell = grid_.at(i, j, k);
-                for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
-                    std::size_t const row = rows_[r];
-                    Vec3 const away = granules_->position[row] - x;
-                    double const near = (1 - std::abs(away.x) / size.x) * (1 - std::abs(away.y) / size.y) *
-                                        (1 - std::abs(away.z) / size.z);
-                    if (std::abs(away.x) >= size.x || std::abs(away.y) >= size.y || std::abs(away.z) >= size.z)
-                        continue;
-                    double const d = granules_->diameter[row];
-                    out.push_back({row, near * granules_->count[row], granules_->velocity[row], d});
-                    solids += near * granules_->count[row] * math::pi / 6 * d * d * d;
+    for (double reach = nearest_; out.empty() && reach <= farthest * nearest_; reach *= 2) {
+        Vec3 const around{reach, reach, reach};
+        auto const first = cell_of(x - around), last = cell_of(x + around);
+        for (int k = first[2]; k <= last[2]; ++k)
+            for (int j = first[1]; j <= last[1]; ++j)
+                for (int i = first[0]; i <= last[0]; ++i) {
+                    Index const cell = grid_.at(i, j, k);
+                    for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
+                        std::size_t const row = rows_[r];
+                        Vec3 const away = granules_->position[row] - x;
+                        double near = 1;
+                        for (std::size_t d = 0; d < 3; ++d) near *= std::max(0.0, 1 - std::abs(away[d]) / reach);
+                        if (near <= 0) continue;
+                        double const d = granules_->diameter[row];
+                        out.push_back({row, near * granules_->count[row], granules_->velocity[row], d});
+                        solids += near * granules_->count[row] * math::pi / 6 * d * d * d;
+                    }
                 }
-            }
-    if (solids <= 0) {
-        out.clear();
-        return;
     }
     // The cells know the whole solids fraction, also of granules beyond this rank's ground.
     double const fraction = 1 - mapping_.gather(mapping_.stencil(x), state_->voidage);

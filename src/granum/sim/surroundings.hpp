@@ -13,7 +13,8 @@ class DropletSurroundings final : public spray::Surroundings
 {
   public:
     DropletSurroundings(grid::Grid const& grid, coupling::Mapping const& mapping,
-                        std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition, int rank);
+                        std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition, int rank,
+                        double parcel_diameter);
 
     //! Takes the fields and granules of this step; exchange is added to `sources` as rates over `dt`.
     //! `eddies`: whether droplets ask for the turbulence.
@@ -33,6 +34,7 @@ class DropletSurroundings final : public spray::Surroundings
     std::vector<spray::Nozzle> const& nozzles_;
     par::Partition const& partition_;
     int rank_;
+    double nearest_;  //!< how near granules are that a droplet strikes, if there are any, m
     double dt_ = 0;
     std::array<grid::Field, 3> velocity_;
     std::optional<gas::Eddies> eddies_;
