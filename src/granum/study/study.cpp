@@ -116,6 +116,13 @@ std::optional<double> next_end(Study const& study, map::Window const& window)
 
 namespace
 {
+//! How far the run in a folder has come, s; 0 where there is none.
+double simulated(std::string const& place)
+{
+    if (!fs::exists(fs::path(place) / "summary.json") || !fs::exists(fs::path(place) / "events.h5")) return 0;
+    return io::number_at(io::read_summary(place), "run.simulated_s").value_or(0);
+}
+
 //! The right to work at a point, or nothing where another process has it.
 std::unique_ptr<io::FolderLock> claimed(std::string const& folder, Point const& point)
 {
@@ -153,11 +160,9 @@ Campaign run(Study const& study, std::string const& folder, Runner const& runner
         auto const claim = claimed(folder, point);
         if (!claim) continue;
         auto const place = (fs::path(folder) / point.name).string();
-        auto const done = [&] {
-            return fs::exists(fs::path(place) / "summary.json") && fs::exists(fs::path(place) / "events.h5");
-        };
+        // A run that was stopped early has its first goal before it.
         std::optional<double> until = study.least + first_look;
-        if (done()) until = next_end(study, map::read_deposits(place).window);
+        if (simulated(place) >= *until * (1 - 1e-6)) until = next_end(study, map::read_deposits(place).window);
         while (until) {
             said(fmt::format("{}: to {:.3g} s", point.name, *until));
             int const status = runner(files[k], place, *until);

@@ -128,6 +128,25 @@ TEST(Study, leaves_points_that_another_process_is_at_to_it)
     EXPECT_TRUE(campaign.outcomes.empty());
 }
 
+TEST(Study, takes_a_run_that_was_stopped_early_to_its_first_goal)
+{
+    Folder const folder;
+    auto const study = read_study(
+        folder.write("format = 1\ncase = \"lab.toml\"\n[window]\nleast = \"5 s\"\n[[point]]\nname = \"A\"\n"));
+    // Before any deposit has dried: there is nothing to look at.
+    auto const place = folder.path / "out/A";
+    fs::create_directories(place);
+    std::ofstream(place / "summary.json") << R"({"schema": 1, "run": {"simulated_s": 0.2}})";
+    std::ofstream(place / "events.h5") << "";
+    std::vector<double> goals;
+    auto const stops = [&](std::string const&, std::string const&, double until) {
+        goals.push_back(until);
+        return 130;
+    };
+    EXPECT_TRUE(run(study, (folder.path / "out").string(), stops, [](std::string const&) {}).stopped);
+    EXPECT_EQ(goals, std::vector<double>{6.5});
+}
+
 TEST(Study, lets_a_run_go_on_until_its_window_is_long_and_its_error_small)
 {
     Study const study{.least = 5, .most = 20, .error = 0.01};
