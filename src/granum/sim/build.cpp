@@ -188,6 +188,11 @@ double smoothing(Case const& data)
     return data.gas.smoothing.value_or(diameters * 2 * largest_radius(data));
 }
 
+double capture_reach(Case const& data)
+{
+    return data.spray.reach.value_or(3 * 2 * largest_radius(data));
+}
+
 coupling::Scheme mapping_scheme(Case const& data)
 {
     return data.gas.mapping == "centre"    ? coupling::Scheme::centre

@@ -33,6 +33,9 @@ coupling::Conduction conduction(Case const& data, par::Communicator const& comm)
 coupling::Laws exchange_laws(Case const& data);
 //! Standard deviation of what granules and gas share, m.
 double smoothing(Case const& data);
+
+//! Within which a droplet strikes granules, m along each direction.
+double capture_reach(Case const& data);
 coupling::Scheme mapping_scheme(Case const& data);
 
 spray::Liquid spray_liquid(Case const& data);

@@ -313,7 +313,8 @@ struct SprayCase
     double parcels_per_second = 2e4;
     std::vector<NozzleCase> nozzles;
     std::string capture = "loeffler";  //!< law of capture by granules
-    std::string dispersion = "none";   //!< of what droplets see of the turbulence
+    std::optional<double> reach;      //!< m, within which a droplet strikes granules; else three of the largest parcels
+    std::string dispersion = "none";  //!< of what droplets see of the turbulence
     bool allow_overwetting = false;
 };
 

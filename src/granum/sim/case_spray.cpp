@@ -225,6 +225,8 @@ void read_spray(io::CaseFile& file, Case& data, Purpose purpose)
     spray.parcels_per_second = file.quantity("spray.parcels_per_second", Dimension::count_rate,
                                              spray.parcels_per_second, "droplet parcels made per second", io::positive);
     spray.capture = file.name("spray.capture", spray.capture, "law", laws_for("spray.capture"), "a capture law");
+    spray.reach = file.optional_quantity("spray.reach", Dimension::length,
+                                         "within which a droplet strikes granules, along each direction", io::positive);
     spray.dispersion = file.name("spray.dispersion", spray.dispersion, "law", laws_for("gas.dispersion"),
                                  "a law of turbulent dispersion");
     if (spray.dispersion != "none") need_eddies(file, "spray.dispersion", data.gas);

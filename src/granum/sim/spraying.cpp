@@ -24,7 +24,7 @@ constexpr double kept_speed = 0.5;          // of that at impact by what flies o
 void Simulation::find_nozzle_cells()
 {
     around_ = std::make_unique<DropletSurroundings>(grid_, *mapping_, nozzles_, *partition_, comm_.rank(),
-                                                    2 * largest_radius(case_));
+                                                    capture_reach(case_));
     nozzle_weights_.clear();
     for (auto const& nozzle : nozzles_) {
         double const cell = grid::widest_at(lines_, nozzle.position);

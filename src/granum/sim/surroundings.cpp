@@ -13,8 +13,8 @@ using math::Vec3;
 
 DropletSurroundings::DropletSurroundings(grid::Grid const& grid, Mapping const& mapping,
                                          std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition,
-                                         int rank, double parcel_diameter)
-    : grid_(grid), mapping_(mapping), nozzles_(nozzles), partition_(partition), rank_(rank), nearest_(parcel_diameter)
+                                         int rank, double reach)
+    : grid_(grid), mapping_(mapping), nozzles_(nozzles), partition_(partition), rank_(rank), reach_(reach)
 {
     // The cells carry the jet once its half-width is one and a half cells (physics.md 4.1).
     double cell = 0;
@@ -93,34 +93,41 @@ void DropletSurroundings::give(Vec3 const& x, spray::Given const& given)
     for (std::size_t d = 0; d < 3; ++d) mapping_.spread(stencil, given.momentum[d] / dt_, sources_->force[d]);
 }
 
-// From the parcels next to the droplet alone, whatever the cells: a wider choice would take deposits out of the spray's
-// cone, and granules would pass it with less on them. Where there is none so near, farther ones.
+// Weights of a width of their own, for the density as for the choice: were they as wide as cells or parcels, so would
+// be the layer of the bed that shares the spray, and with it how much is on each granule.
 void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out) const
 {
     out.clear();
-    constexpr double farthest = 4;
-    double solids = 0;
-    for (double reach = nearest_; out.empty() && reach <= farthest * nearest_; reach *= 2) {
-        Vec3 const around{reach, reach, reach};
-        auto const first = cell_of(x - around), last = cell_of(x + around);
-        for (int k = first[2]; k <= last[2]; ++k)
-            for (int j = first[1]; j <= last[1]; ++j)
-                for (int i = first[0]; i <= last[0]; ++i) {
-                    Index const cell = grid_.at(i, j, k);
-                    for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
-                        std::size_t const row = rows_[r];
-                        Vec3 const away = granules_->position[row] - x;
-                        double near = 1;
-                        for (std::size_t d = 0; d < 3; ++d) near *= std::max(0.0, 1 - std::abs(away[d]) / reach);
-                        if (near <= 0) continue;
-                        double const d = granules_->diameter[row];
-                        out.push_back({row, near * granules_->count[row], granules_->velocity[row], d});
-                        solids += near * granules_->count[row] * math::pi / 6 * d * d * d;
-                    }
+    Vec3 const around{reach_, reach_, reach_};
+    auto const first = cell_of(x - around), last = cell_of(x + around);
+    double seen =
+        0;  // part of the weights that lies in open cells of this rank: others have granules that it does not know
+    for (int k = first[2]; k <= last[2]; ++k)
+        for (int j = first[1]; j <= last[1]; ++j)
+            for (int i = first[0]; i <= last[0]; ++i) {
+                Index const cell = grid_.at(i, j, k);
+                seen += share_of(0, i, x) * share_of(1, j, x) * share_of(2, k, x) * grid_.open_volume[cell] /
+                        grid_.volume(i, j, k);
+                for (std::uint32_t r = first_[cell]; r < first_[cell + 1]; ++r) {
+                    std::size_t const row = rows_[r];
+                    Vec3 const away = granules_->position[row] - x;
+                    double density = granules_->count[row];
+                    for (std::size_t d = 0; d < 3; ++d)
+                        density *= std::max(0.0, 1 - std::abs(away[d]) / reach_) / reach_;
+                    if (density > 0) out.push_back({row, density, granules_->velocity[row], granules_->diameter[row]});
                 }
-    }
-    // The cells know the whole solids fraction, also of granules beyond this rank's ground.
-    double const fraction = 1 - mapping_.gather(mapping_.stencil(x), state_->voidage);
-    for (auto& target : out) target.chance *= fraction / solids;
+            }
+    if (seen <= 0) out.clear();
+    for (auto& target : out) target.chance /= seen;
+}
+
+double DropletSurroundings::share_of(std::size_t d, int cell, Vec3 const& x) const
+{
+    auto const below = [](double u) {
+        double const inside = std::clamp(u, -1.0, 1.0);
+        return inside < 0 ? 0.5 * (1 + inside) * (1 + inside) : 1 - 0.5 * (1 - inside) * (1 - inside);
+    };
+    auto const& axis = grid_.axes[d];
+    return below((axis.face(cell + 1) - x[d]) / reach_) - below((axis.face(cell) - x[d]) / reach_);
 }
 }

@@ -14,7 +14,7 @@ class DropletSurroundings final : public spray::Surroundings
   public:
     DropletSurroundings(grid::Grid const& grid, coupling::Mapping const& mapping,
                         std::vector<spray::Nozzle> const& nozzles, par::Partition const& partition, int rank,
-                        double parcel_diameter);
+                        double reach);
 
     //! Takes the fields and granules of this step; exchange is added to `sources` as rates over `dt`.
     //! `eddies`: whether droplets ask for the turbulence.
@@ -28,13 +28,15 @@ class DropletSurroundings final : public spray::Surroundings
 
   private:
     std::array<int, 3> cell_of(math::Vec3 const& x) const;
+    //! Of the weights around x along direction d that fall into a cell.
+    double share_of(std::size_t d, int cell, math::Vec3 const& x) const;
 
     grid::Grid const& grid_;
     coupling::Mapping const& mapping_;
     std::vector<spray::Nozzle> const& nozzles_;
     par::Partition const& partition_;
     int rank_;
-    double nearest_;  //!< how near granules are that a droplet strikes, if there are any, m
+    double reach_;  //!< within which a droplet strikes granules, m along each direction
     double dt_ = 0;
     std::array<grid::Field, 3> velocity_;
     std::optional<gas::Eddies> eddies_;

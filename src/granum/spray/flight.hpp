@@ -50,8 +50,8 @@ class Surroundings
     virtual ~Surroundings() = default;
     virtual Seen seen(Vec3 const& x) const = 0;
     virtual void give(Vec3 const& x, Given const& given) = 0;
-    //! Owned granules next to x with their kernel weight times number per volume (1/m3) in `chance`, scaled so that
-    //! their solids fraction is the one at x; empty where there are none.
+    //! Owned granules around x with the number per volume (1/m3) that each adds there in `chance`: a kernel's weight
+    //! times number, over the part of the kernel that this rank sees. Empty where there are none.
     virtual void targets(Vec3 const& x, std::vector<Target>& out) const = 0;
     virtual bool mine(Vec3 const& x) const = 0;  //!< does this rank own the place?
 };

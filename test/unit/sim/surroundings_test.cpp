@@ -1,4 +1,4 @@
-// Which granules a droplet may strike: those next to it, however wide the cells of the gas are.
+// Which granules a droplet may strike: those within its reach, however wide the cells of the gas are.
 #include "granum/sim/surroundings.hpp"
 
 #include "scene/case_text.hpp"
@@ -12,7 +12,7 @@ namespace
 using namespace granum;
 using math::Vec3;
 
-constexpr double edge = 0.1, parcel = 4e-3;  // m
+constexpr double edge = 0.1, reach = 7e-3;  // m
 
 //! Parcels at random in a box of still gas of `cells` cells along each side.
 struct Bed
@@ -49,11 +49,11 @@ duration = "1 s"
 )",
                            cells);
     }
-    explicit Bed(int cells)
+    explicit Bed(int cells, double within = reach)
         : simulation(scene::simulation_of(text(cells))),
           mapping(simulation->grid(), simulation->comm(), 0),
           partition(par::Space{{{0, 0, 0}, {edge, edge, edge}}, {}}),
-          around(simulation->grid(), mapping, nozzles, partition, 0, parcel)
+          around(simulation->grid(), mapping, nozzles, partition, 0, within)
     {
         simulation->step(1e-3);
         sources.clear(simulation->grid());
@@ -68,41 +68,49 @@ double distance(Vec3 const& a, Vec3 const& b)
     return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
 }
 
-TEST(Targets, are_the_parcels_within_a_diameter_and_offer_the_solids_of_the_cells)
+TEST(Targets, are_the_parcels_within_reach_and_offer_their_own_density)
 {
-    std::size_t struck = 0, farther = 0;
     for (int const cells : {6, 20}) {
         Bed const bed(cells);
         auto const& granules = bed.simulation->granules();
         std::vector<spray::Target> found;
+        double offered = 0, known = 0;
         for (std::uint64_t n = 0; n < 400; ++n) {
             base::Random random(1, base::Purpose::test, n, 0);
             Vec3 x = granules.position[n];
-            for (std::size_t d = 0; d < 3; ++d)
-                x[d] = std::clamp(x[d] + 3 * parcel * (random.uniform() - 0.5), 0.0, edge);
+            for (std::size_t d = 0; d < 3; ++d) x[d] = std::clamp(x[d] + 12e-3 * (random.uniform() - 0.5), 0.0, edge);
             bed.around.targets(x, found);
-            // The reach: a diameter, or as often doubled as it takes to find one, twice at most.
-            double reach = parcel;
-            auto const within = [&](double r) {
-                std::size_t count = 0;
-                for (std::size_t row = 0; row < granules.owned; ++row) count += distance(granules.position[row], x) < r;
-                return count;
-            };
-            while (within(reach) == 0 && reach < 4 * parcel) reach *= 2;
-            ASSERT_EQ(found.size(), within(reach));
-            double solids = 0;
+            std::size_t within = 0;
+            for (std::size_t row = 0; row < granules.owned; ++row)
+                within += distance(granules.position[row], x) < reach;
+            ASSERT_EQ(found.size(), within);
             for (auto const& target : found) {
                 ASSERT_LT(distance(granules.position[target.row], x), reach);
-                EXPECT_GT(target.chance, 0);
-                solids += target.chance * math::pi / 6 * std::pow(target.diameter, 3);
+                ASSERT_GT(target.chance, 0);
+                offered += target.chance * math::pi / 6 * std::pow(target.diameter, 3);
             }
-            struck += !found.empty(), farther += reach > parcel;
-            EXPECT_NEAR(solids, found.empty() ? 0 : bed.solids_at(x), 1e-12);
+            known += bed.solids_at(x);
         }
+        EXPECT_NEAR(offered / known, 1, 0.1) << "solids, in the mean, as the cells know them";
     }
-    EXPECT_GT(struck, 600u);
-    EXPECT_GT(farther, 20u);
-    EXPECT_LT(farther, 400u);
+}
+
+TEST(Targets, offer_beside_walls_what_they_offer_far_from_them)
+{
+    constexpr double wide = 20e-3, radius = 2e-3;
+    Bed const bed(10, wide);
+    std::vector<spray::Target> found;
+    auto const mean_at = [&](double z) {
+        double sum = 0;
+        constexpr int places = 2000;
+        for (int n = 0; n < places; ++n) {
+            base::Random random(2, base::Purpose::test, static_cast<std::uint64_t>(n), 0);
+            bed.around.targets({edge * random.uniform(), edge * random.uniform(), z}, found);
+            for (auto const& target : found) sum += target.chance;
+        }
+        return sum / places;
+    };
+    EXPECT_NEAR(mean_at(radius) / mean_at(wide + radius), 1, 0.2) << "a kernel cut by the plate: 0.6";
 }
 
 TEST(Targets, are_likelier_the_nearer_they_are_whatever_the_cells)
