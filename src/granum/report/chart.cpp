@@ -178,7 +178,8 @@ std::string whole_svg(std::string const& title, std::string const& drawn, std::v
 std::vector<double> ticks(double low, double high, int count)
 {
     double const raw = (high - low) / count;
-    if (!(raw > 0) || !std::isfinite(raw)) return {low};
+    // A range of nothing but rounding has no ticks in it: counting them in its steps would not end.
+    if (!(raw > 1e-12 * std::max(std::abs(low), std::abs(high))) || !std::isfinite(raw)) return {low};
     double const decade = std::pow(10, std::floor(std::log10(raw)));
     double const rest = raw / decade;
     double const step = decade * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
@@ -242,7 +243,8 @@ std::string svg(HistogramChart const& chart)
     if (chart.x.logarithmic) {
         x.low /= 1.1, x.high *= 1.1;
     } else {
-        double const pad = x.high > x.low ? 0.03 * (x.high - x.low) : std::max(0.05 * std::abs(x.low), 1e-9);
+        double const wide = x.high - x.low, least = 1e-9 * std::abs(x.low);  // less is rounding
+        double const pad = wide > least ? 0.03 * wide : std::max(0.05 * std::abs(x.low), 1e-9);
         x.low = x.low >= 0 && x.low < pad ? 0 : x.low - pad, x.high += pad;
     }
     Scale const across{x.low, x.high, left, width - right, chart.x.logarithmic};

@@ -98,7 +98,8 @@ Finished const& run_of(std::string const& name, std::map<std::string, std::strin
 }
 Finished const& steady_run()
 {
-    return run_of("steady", {{"duration", "\"2.6 s\""}});
+    // Whether noise lets the bed end its settling by itself so soon is a matter of chance.
+    return run_of("steady", {{"duration", "\"2 s\""}}, "[start]\nsettling = \"1.4 s\"\n");
 }
 
 class Lab : public ::testing::Test
@@ -303,7 +304,7 @@ TEST_F(Lab, folder_has_what_a_user_is_promised)
         for (std::size_t at = 0; (at = collection.find("file=\"", at)) != std::string::npos; ++at) ++listed;
         for (auto const& file : fs::directory_iterator(run.folder + "/vtk"))
             written += file.path().filename().string().starts_with(kind);
-        EXPECT_EQ(listed, 27u) << kind;
+        EXPECT_EQ(listed, 21u) << kind;
         EXPECT_EQ(written, listed) << kind;
     }
     auto const report = scene::text_of(run.folder + "/report.html");

@@ -106,6 +106,7 @@ TEST(Chart, ticks_are_round_and_inside)
     EXPECT_EQ(ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
     EXPECT_EQ(ticks(-1, 1, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
     EXPECT_EQ(ticks(3, 3, 4), std::vector<double>{3});
+    EXPECT_EQ(ticks(0.34, std::nextafter(0.34, 1), 4), std::vector<double>{0.34}) << "a range of rounding";
     auto const fine = ticks(65.612, 65.648, 5);
     EXPECT_GE(fine.size(), 3u);
     EXPECT_GE(fine.front(), 65.612);
