@@ -1,4 +1,5 @@
-// What droplets meet: gas and granules around a point, through the same weights as the granules' exchange.
+// What droplets meet: gas around a point, through the same weights as the granules' exchange, and granules within a reach
+// that is the spray's own.
 #pragma once
 
 #include "granum/coupling/exchange.hpp"
