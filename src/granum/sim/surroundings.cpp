@@ -100,8 +100,8 @@ void DropletSurroundings::targets(Vec3 const& x, std::vector<spray::Target>& out
     out.clear();
     Vec3 const around{reach_, reach_, reach_};
     auto const first = cell_of(x - around), last = cell_of(x + around);
-    double seen =
-        0;  // part of the weights that lies in open cells of this rank: others have granules that it does not know
+    // Part of the weights that lies in open cells of this rank: others have granules that it does not know.
+    double seen = 0;
     for (int k = first[2]; k <= last[2]; ++k)
         for (int j = first[1]; j <= last[1]; ++j)
             for (int i = first[0]; i <= last[0]; ++i) {

@@ -1,5 +1,5 @@
-// What droplets meet: gas around a point, through the same weights as the granules' exchange, and granules within a reach
-// that is the spray's own.
+// What droplets meet: gas around a point, through the same weights as the granules' exchange, and granules within a
+// reach that is the spray's own.
 #pragma once
 
 #include "granum/coupling/exchange.hpp"
