@@ -40,6 +40,17 @@ Outcome outcome_of(Point const& point, std::string const& folder)
     out.water_error = number("ledger.water.relative_error");
     return out;
 }
+
+Goal read_goal(io::CaseFile& file, std::string const& section, Goal goal)
+{
+    goal.least = file.quantity(section + "least", Dimension::time, goal.least,
+                               "that the steady part of a run must last", io::positive);
+    goal.most = file.quantity(section + "most", Dimension::time, goal.most, "that it may last", io::positive);
+    goal.error = file.quantity(section + "error", Dimension::one, goal.error,
+                               "standard error of the mean of log10 of the drying time that ends a run", io::positive);
+    if (goal.most < goal.least) file.mistake(section + "most", fmt::format("is below {}least", section));
+    return goal;
+}
 }
 
 Study read_study(std::string const& path)
@@ -49,12 +60,7 @@ Study read_study(std::string const& path)
     file.integer("format", 1, "version of the format of studies", 1, 1);
     study.title = file.words("title", fs::path(path).stem().string(), "for people");
     file.section("window");
-    study.least = file.quantity("window.least", Dimension::time, study.least, "that the steady part of a run must last",
-                                io::positive);
-    study.most = file.quantity("window.most", Dimension::time, study.most, "that it may last", io::positive);
-    study.error = file.quantity("window.error", Dimension::one, study.error,
-                                "standard error of the mean of log10 of the drying time that ends a run", io::positive);
-    if (study.most < study.least) file.mistake("window.most", "is below window.least");
+    study.goal = read_goal(file, "window.", study.goal);
     auto const map = file.words("map", "", "to predict the property of each point with");
     if (!map.empty()) study.map = file.beside(map);
     file.know("set");
@@ -71,6 +77,7 @@ Study read_study(std::string const& path)
         else
             point.base = file.beside(own);
         file.know(key + "set");
+        point.goal = read_goal(file, key + "window.", study.goal);
         bool const plain =
             !point.name.empty() && std::all_of(point.name.begin(), point.name.end(), [](unsigned char c) {
                 return std::isalnum(c) || c == '-' || c == '_' || c == '.';
@@ -98,20 +105,20 @@ std::string case_of(Study const& study, Point const& point)
                                  fs::path(study.path).filename().string(), fs::path(point.base).filename().string()));
 }
 
-std::optional<double> next_end(Study const& study, map::Window const& window)
+std::optional<double> next_end(Goal const& goal, map::Window const& window)
 {
     double const length = window.to - window.from;
-    if (window.settled && length >= study.least && window.error <= study.error) return std::nullopt;
-    if (window.settled && length >= study.most) return std::nullopt;
-    double wanted = study.least;
+    if (window.settled && length >= goal.least && window.error <= goal.error) return std::nullopt;
+    if (window.settled && length >= goal.most) return std::nullopt;
+    double wanted = goal.least;
     // Errors fall with the root of the length; a tenth more, so that the next look is the last.
-    if (window.settled && window.error > study.error)
-        wanted = std::max(wanted, 1.1 * length * std::pow(window.error / study.error, 2));
+    if (window.settled && window.error > goal.error)
+        wanted = std::max(wanted, 1.1 * length * std::pow(window.error / goal.error, 2));
     // One that has not settled is given its length again.
     double const end =
-        window.settled ? window.from + std::min(wanted, study.most) : window.to + std::max(study.least, length);
-    if (!window.settled && window.to > 2 * study.most) return std::nullopt;
-    return std::max(end, window.to + 0.2 * study.least);
+        window.settled ? window.from + std::min(wanted, goal.most) : window.to + std::max(goal.least, length);
+    if (!window.settled && window.to > 2 * goal.most) return std::nullopt;
+    return std::max(end, window.to + 0.2 * goal.least);
 }
 
 namespace
@@ -161,8 +168,8 @@ Campaign run(Study const& study, std::string const& folder, Runner const& runner
         if (!claim) continue;
         auto const place = (fs::path(folder) / point.name).string();
         // A run that was stopped early has its first goal before it.
-        std::optional<double> until = study.least + first_look;
-        if (simulated(place) >= *until * (1 - 1e-6)) until = next_end(study, map::read_deposits(place).window);
+        std::optional<double> until = point.goal.least + first_look;
+        if (simulated(place) >= *until * (1 - 1e-6)) until = next_end(point.goal, map::read_deposits(place).window);
         while (until) {
             said(fmt::format("{}: to {:.3g} s", point.name, *until));
             int const status = runner(files[k], place, *until);
@@ -171,11 +178,12 @@ Campaign run(Study const& study, std::string const& folder, Runner const& runner
                 return out;
             }
             if (status != 0) throw base::NumericsError(fmt::format("{}: granum run ended with {}", place, status));
-            until = next_end(study, map::read_deposits(place).window);
+            until = next_end(point.goal, map::read_deposits(place).window);
         }
         auto& outcome = out.outcomes.emplace_back(outcome_of(point, place));
         auto const& window = outcome.deposits.window;
-        outcome.enough = window.settled && window.error <= study.error && window.to - window.from >= study.least;
+        outcome.enough =
+            window.settled && window.error <= point.goal.error && window.to - window.from >= point.goal.least;
         said(fmt::format("{}: {:.3g} to {:.3g} s, log10 of the drying time {:.4f} +- {:.4f}{}", point.name, window.from,
                          window.to, window.mean, window.error, outcome.enough ? "" : " (NOT as good as asked)"));
     }

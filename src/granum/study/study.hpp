@@ -15,21 +15,28 @@
 
 namespace granum::study
 {
+//! How well the steady part of a run must be known.
+struct Goal
+{
+    double least = 5, most = 30;  //!< s of the window: at least so long, then no longer than this
+    double error = 0.01;          //!< standard error of the mean of log10 of the drying time to be reached
+};
+
 struct Point
 {
     std::string name;
     std::string base;  //!< path of the case it is made of
     std::string key;   //!< table of the study with what it sets: "point[2].set"
+    Goal goal;
 };
 
 struct Study
 {
     std::string path, title;
     std::vector<Point> points;
-    double least = 5, most = 30;  //!< s of the window: at least so long, then no longer than this
-    double error = 0.01;          //!< standard error of the mean of log10 of the drying time to be reached
-    std::string map;              //!< path of a map to predict with; empty: none
-    std::string reference;        //!< name of the point that the others are compared with; empty: none
+    Goal goal;              //!< of points that have none of their own
+    std::string map;        //!< path of a map to predict with; empty: none
+    std::string reference;  //!< name of the point that the others are compared with; empty: none
 };
 
 //! Throws base::CaseError with every mistake of the file. The cases of its points are checked too.
@@ -71,7 +78,7 @@ Campaign run(Study const& study, std::string const& folder, Runner const& runner
              std::function<void(std::string const&)> const& said);
 
 //! Until which simulated time a run is to go on, given its window; empty: it need not.
-std::optional<double> next_end(Study const& study, map::Window const& window);
+std::optional<double> next_end(Goal const& goal, map::Window const& window);
 
 //! study.csv and study.html in `folder`.
 void write(Study const& study, std::vector<Outcome> const& outcomes, std::string const& folder);

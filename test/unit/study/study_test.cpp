@@ -62,12 +62,16 @@ set.gas.temperature = "60 degC"
 set.spray.rate = "0.6 kg/h"
 [[point]]
 name = "A2"
+window.least = "2 s"
 [point.set.granules]
 parcels = 5000
 )"));
     EXPECT_EQ(study.title, "two points");
-    EXPECT_EQ(study.least, 3);
+    EXPECT_EQ(study.goal.least, 3);
     ASSERT_EQ(study.points.size(), 2u);
+    EXPECT_EQ(study.points[0].goal.least, 3);
+    EXPECT_EQ(study.points[1].goal.least, 2) << "its own";
+    EXPECT_EQ(study.points[1].goal.error, 0.02) << "the study's";
     auto const read = [&](std::size_t k) {
         auto const file = folder.path / fmt::format("point-{}.toml", k);
         std::ofstream(file) << case_of(study, study.points[k]);
@@ -97,6 +101,9 @@ TEST(Study, says_what_is_wrong_with_its_file)
     EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A\"\n[[point]]\nname = \"A\"\n"), "there already");
     EXPECT_PRED2(has, folder.mistakes(head + "[window]\nleast = \"9 s\"\nmost = \"5 s\"\n[[point]]\nname = \"A\"\n"),
                  "below window.least");
+    EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A\"\nwindow.least = \"40 s\"\n"),
+                 "below point[0].window.least");
+    EXPECT_PRED2(has, folder.mistakes(head + "[[point]]\nname = \"A\"\nwindow.last = \"40 s\"\n"), "last");
     EXPECT_PRED2(has, folder.mistakes("reference = \"B\"\n" + head + "[[point]]\nname = \"A\"\n"),
                  "none of the points");
     EXPECT_PRED2(has, folder.mistakes(head + "[windows]\n[[point]]\nname = \"A\"\n"), "window");
@@ -149,15 +156,15 @@ TEST(Study, takes_a_run_that_was_stopped_early_to_its_first_goal)
 
 TEST(Study, lets_a_run_go_on_until_its_window_is_long_and_its_error_small)
 {
-    Study const study{.least = 5, .most = 20, .error = 0.01};
-    EXPECT_FALSE(next_end(study, {.from = 1, .to = 6.5, .settled = true, .error = 0.009}));
-    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 4, .settled = true, .error = 0.005}), 6, 1e-12);
+    Goal const goal{.least = 5, .most = 20, .error = 0.01};
+    EXPECT_FALSE(next_end(goal, {.from = 1, .to = 6.5, .settled = true, .error = 0.009}));
+    EXPECT_NEAR(*next_end(goal, {.from = 1, .to = 4, .settled = true, .error = 0.005}), 6, 1e-12);
     // Twice the error: four times the length, and a tenth.
-    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 5, .settled = true, .error = 0.02}), 1 + 1.1 * 16, 1e-12);
-    EXPECT_NEAR(*next_end(study, {.from = 1, .to = 6, .settled = true, .error = 0.2}), 21, 1e-12) << "window.most";
-    EXPECT_FALSE(next_end(study, {.from = 1, .to = 21.5, .settled = true, .error = 0.2}))
+    EXPECT_NEAR(*next_end(goal, {.from = 1, .to = 5, .settled = true, .error = 0.02}), 1 + 1.1 * 16, 1e-12);
+    EXPECT_NEAR(*next_end(goal, {.from = 1, .to = 6, .settled = true, .error = 0.2}), 21, 1e-12) << "window.most";
+    EXPECT_FALSE(next_end(goal, {.from = 1, .to = 21.5, .settled = true, .error = 0.2}))
         << "it is as long as it may be";
-    EXPECT_NEAR(*next_end(study, {.from = 3, .to = 6, .settled = false, .error = 0.2}), 11, 1e-12);
-    EXPECT_FALSE(next_end(study, {.from = 25, .to = 50, .settled = false, .error = 0.2}));
+    EXPECT_NEAR(*next_end(goal, {.from = 3, .to = 6, .settled = false, .error = 0.2}), 11, 1e-12);
+    EXPECT_FALSE(next_end(goal, {.from = 25, .to = 50, .settled = false, .error = 0.2}));
 }
 }
