@@ -1,4 +1,5 @@
 // The program `granum`: reads the command line and hands over to the verb.
+#include "large_pages.hpp"
 #include "verbs.hpp"
 
 #include "granum/base/error.hpp"
@@ -69,6 +70,7 @@ int act(Action const& action)
 int main(int argc, char** argv)
 {
     using namespace granum;
+    app::use_large_pages(argv);
     CLI::App program("Granum predicts what a fluidised-bed spray granulator makes.", "granum");
     program.set_version_flag("--version", "granum " GRANUM_VERSION);
     program.require_subcommand(1);

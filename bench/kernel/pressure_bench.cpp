@@ -74,7 +74,7 @@ void measure(Size const& size, par::Communicator const& comm, int repetitions)
             if (k >= 0) candidate.times.push_back(1e6 * taken / cells);
         }
         comm.barrier();
-        rates.push_back(1e-9 * base::triad_rate());
+        rates.push_back(1e-9 * base::Triad().rate());
     }
     if (!comm.root()) return;
     for (auto& candidate : candidates) {

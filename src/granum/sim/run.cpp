@@ -246,7 +246,7 @@ base::Exit run(ResolvedCase const& resolved, RunOptions const& options, par::Com
         std::array<double, 4> work{gas.cell_steps, gas.bytes, gas.iterations, gas.sweeps};
         comm.sum(work);
         performance.gas = {work[0], work[1], work[2], work[3]};
-        if (simulation.has_gas() && ended == "done") performance.triad_rate = -comm.max(-base::triad_rate());
+        if (simulation.has_gas() && ended == "done") performance.triad_rate = -comm.max(-base::Triad().rate());
         performance.state_hash = state_hash(simulation.granules(), comm);
         auto warnings = run_warnings(simulation, resolved.warnings);
         if (root)
