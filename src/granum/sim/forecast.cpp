@@ -57,7 +57,6 @@ double largest_overlap(Case const& data, double radius, double speed)
 
 constexpr double bytes_per_parcel = 2050;       //!< of granules alone, at the peak: input, state, checkpoint, pictures
 constexpr double bytes_of_gas_and_layer = 450;  //!< more with gas: columns, deposits, stencils (assumed)
-constexpr double bytes_per_cell = 800;          //!< fields and the rows of the pressure matrix (assumed)
 constexpr double bytes_per_rank = 60e6;         //!< program, libraries
 
 void add_warnings(Case const& data, Forecast& out)
@@ -202,7 +201,7 @@ Forecast forecast(Case const& data, int ranks)
 
     double const parcels = static_cast<double>(out.parcels), cells = static_cast<double>(out.cells);
     double const each = bytes_per_parcel + (data.gas.present ? bytes_of_gas_and_layer : 0);
-    out.memory = parcels * each + cells * bytes_per_cell + ranks * bytes_per_rank;
+    out.memory = parcels * each + cells * bytes_of_a_cell + ranks * bytes_per_rank;
     add_warnings(data, out);
     return out;
 }

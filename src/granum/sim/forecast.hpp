@@ -11,6 +11,9 @@
 
 namespace granum::sim
 {
+//! Of memory: fields of a gas cell and the rows of its pressure equation, on all levels (assumed).
+constexpr double bytes_of_a_cell = 800;
+
 struct Forecast
 {
     double granules = 0;  //!< real granules represented
